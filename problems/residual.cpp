@@ -1,0 +1,216 @@
+#include "problems/residual.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "problems/error.h"
+
+namespace conebench::problems {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// One cone's part of a vector, of any dimension.
+using Small = Eigen::VectorXd;
+
+Measure measure(Eigen::VectorXd per_cone) {
+  Measure m;
+  if (per_cone.size() > 0) {
+    m.max = per_cone.maxCoeff();
+    // Scaled, so that squares neither overflow nor vanish.
+    if (m.max > 0.0)
+      m.rms = m.max *
+              std::sqrt((per_cone / m.max).squaredNorm() / static_cast<double>(per_cone.size()));
+  }
+  m.per_cone = std::move(per_cone);
+  return m;
+}
+
+template <class Vector>
+Vector natural_map(const Cone& cone, double lambda, const Vector& r, const Vector& u_hat) {
+  Vector projected = r - u_hat / lambda;
+  project(cone.mu, projected);
+  return r - projected;
+}
+
+// lambda_i |r_i - P_K(r_i - u_hat_i / lambda_i)| for one cone.
+template <class Vector>
+double natural_error(const Cone& cone, double lambda, const Vector& r, Vector u) {
+  add_de_saxce(cone.theta, u);
+  if (!(lambda > 0.0)) {  // W = 0: only the sign conditions are left
+    return natural_map(cone, 1e-300, r, u).norm() * 1e-300;
+  }
+  return lambda * natural_map(cone, lambda, r, u).norm();
+}
+
+double natural_error(const Problem& problem, int i, const Eigen::VectorXd& r,
+                     const Eigen::VectorXd& u) {
+  const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
+  const int at = problem.start(i);
+  const double lambda = problem.mobility()(i);
+  switch (cone.dim) {
+    case 2:
+      return natural_error<Eigen::Vector2d>(cone, lambda, r.segment<2>(at), u.segment<2>(at));
+    case 3:
+      return natural_error<Eigen::Vector3d>(cone, lambda, r.segment<3>(at), u.segment<3>(at));
+    case 6:
+      return natural_error<Eigen::Matrix<double, 6, 1>>(cone, lambda, r.segment<6>(at),
+                                                        u.segment<6>(at));
+    default:
+      return natural_error<Eigen::VectorXd>(cone, lambda, r.segment(at, cone.dim),
+                                            u.segment(at, cone.dim));
+  }
+}
+
+// max lambda_i |r_i|: the size of what cancels in u.
+double reaction_rate(const Problem& problem, const Eigen::VectorXd& r) {
+  double largest = 0.0;
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
+    largest = std::max(largest, problem.mobility()(i) * r.segment(problem.start(i), dim).norm());
+  }
+  return largest;
+}
+
+// U, or what stands in for it when the data are all zero.
+double divisor(const Problem& problem, const Eigen::VectorXd& r) {
+  if (problem.rate_scale() > 0.0) return problem.rate_scale();
+  const double reaction = reaction_rate(problem, r);
+  return reaction > 0.0 ? reaction : 1.0;
+}
+
+// x + y - (x^2 + y^2)^{1/2} in the Jordan algebra of the second-order cone, normal first.
+Eigen::VectorXd fischer_burmeister(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
+  const Eigen::Index tangents = x.size() - 1;
+  const Eigen::VectorXd vector = 2.0 * (x(0) * x.tail(tangents) + y(0) * y.tail(tangents));
+  const double scalar = x.squaredNorm() + y.squaredNorm();
+  const double norm = vector.norm();
+  const double low = std::sqrt(std::max(0.0, scalar - norm));
+  const double high = std::sqrt(scalar + norm);
+  Eigen::VectorXd phi = x + y;
+  phi(0) -= 0.5 * (high + low);
+  if (norm > 0.0) phi.tail(tangents) -= 0.5 * (high - low) / norm * vector;
+  return phi;
+}
+
+// With mu = 0 the cone is the half line: the scalar function, and r_t itself must vanish.
+double fischer_burmeister_square(const Cone& cone, const Small& r, const Small& u_hat) {
+  Eigen::VectorXd x = r, y = u_hat;
+  if (cone.mu > 0.0) {
+    x(0) *= cone.mu;
+    y(0) /= cone.mu;
+    return fischer_burmeister(x, y).squaredNorm();
+  }
+  const double scalar = r(0) + u_hat(0) - std::hypot(r(0), u_hat(0));
+  return scalar * scalar + r.tail(r.size() - 1).squaredNorm();
+}
+
+double alart_curnier_square(const Cone& cone, const Small& r, const Small& u) {
+  const double un = u(0) + (cone.theta - cone.mu) * tangential_norm(u);
+  const double pushed = std::max(0.0, r(0) - un);
+  Small moved = r - u;
+  const double length = tangential_norm(moved);
+  const double shrink = length > cone.mu * pushed ? cone.mu * pushed / length : 1.0;
+  const double normal = r(0) - pushed;
+  return normal * normal + (r - shrink * moved).tail(r.size() - 1).squaredNorm();
+}
+
+double angle_against(const Small& r, const Small& u) {
+  const double product = tangential_norm(r) * tangential_norm(u);
+  if (!(product > 0.0)) return 0.0;
+  const Eigen::Index n = r.size() - 1;
+  return std::acos(std::clamp(-r.tail(n).dot(u.tail(n)) / product, -1.0, 1.0));
+}
+
+void check(const Problem& standard, const Eigen::VectorXd& r) {
+  require(standard.is_standard(), standard.name(),
+          "kappa > 0, expected the standard problem: Problem::shifted()");
+  require(r.size() == standard.rows(), standard.name(), "r has ", r.size(), " entries, expected ",
+          standard.rows());
+}
+
+Residual not_finite(const Problem& standard) {
+  Residual result;
+  result.finite = false;
+  result.eta = measure(Eigen::VectorXd::Constant(standard.cone_count(), kInfinity));
+  result.eta.max = result.eta.rms = kInfinity;
+  result.attainable_eta = result.fclib = result.siconos = kInfinity;
+  result.fischer_burmeister = result.alart_curnier = kInfinity;
+  return result;
+}
+
+}  // namespace
+
+double evaluate_eta(const Problem& standard, const Eigen::VectorXd& r) {
+  check(standard, r);
+  if (standard.cone_count() == 0) return 0.0;
+  if (!r.allFinite()) return kInfinity;
+  const Eigen::VectorXd u = standard.rate(r);
+  if (!u.allFinite()) return kInfinity;
+  double worst = 0.0;
+  for (int i = 0; i < standard.cone_count(); ++i) {
+    worst = std::max(worst, natural_error(standard, i, r, u));
+  }
+  return worst / divisor(standard, r);
+}
+
+Residual evaluate_residual(const Problem& standard, const Eigen::VectorXd& r) {
+  check(standard, r);
+  if (standard.cone_count() == 0) return {};
+  if (!r.allFinite()) return not_finite(standard);
+  const Eigen::VectorXd u = standard.rate(r);
+  if (!u.allFinite()) return not_finite(standard);
+
+  const int cones = standard.cone_count();
+  const double scale = divisor(standard, r);
+  Eigen::VectorXd eta(cones), penetration(cones), violation(cones), tension(cones), work(cones);
+  double natural_square = 0.0, fb_square = 0.0, ac_square = 0.0;
+  for (int i = 0; i < cones; ++i) {
+    const Cone& cone = standard.cones()[static_cast<std::size_t>(i)];
+    const Small ri = r.segment(standard.start(i), cone.dim);
+    const Small ui = u.segment(standard.start(i), cone.dim);
+    Small u_hat = ui;
+    add_de_saxce(cone.theta, u_hat);
+    eta(i) = natural_error(standard, i, r, u) / scale;
+    penetration(i) = std::max(0.0, -ui(0));
+    violation(i) = std::max(0.0, tangential_norm(ri) - cone.mu * ri(0));
+    tension(i) = std::max(0.0, -ri(0));
+    work(i) = std::abs(ri.dot(u_hat));
+    natural_square += natural_map(cone, 1.0, ri, u_hat).squaredNorm();
+    fb_square += fischer_burmeister_square(cone, ri, u_hat);
+    ac_square += alart_curnier_square(cone, ri, ui);
+  }
+
+  Residual result;
+  result.eta = measure(std::move(eta));
+  Eigen::VectorXd angle = Eigen::VectorXd::Zero(cones);
+  const double resolved = 10.0 * result.eta.max * scale;
+  for (int i = 0; i < cones; ++i) {
+    const int dim = standard.cones()[static_cast<std::size_t>(i)].dim;
+    const Small ui = u.segment(standard.start(i), dim);
+    if (tangential_norm(ui) > resolved) {
+      angle(i) = angle_against(r.segment(standard.start(i), dim), ui);
+    }
+  }
+  result.attainable_eta = 1e-16 * reaction_rate(standard, r) / scale;
+  const double natural = std::sqrt(natural_square);
+  const double q_size = standard.q().norm();
+  result.fclib = natural / std::max(q_size, 1e-300);
+  result.siconos = natural / std::max({q_size, r.norm(), u.norm(), 1e-300});
+  result.fischer_burmeister = fb_square / cones;
+  result.alart_curnier = ac_square / cones;
+  result.penetration_rate = measure(std::move(penetration));
+  result.cone_violation = measure(std::move(violation));
+  result.tension = measure(std::move(tension));
+  result.work = measure(std::move(work));
+  result.misalignment = measure(std::move(angle));
+  if (standard.is_primal()) {
+    const Eigen::VectorXd v = standard.velocity(r);
+    result.momentum =
+        measure((standard.M() * v - standard.f() - standard.H().transpose() * r).cwiseAbs());
+  }
+  return result;
+}
+
+}  // namespace conebench::problems

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <chrono>
+#include <limits>
+#include <vector>
+
+#include "solvers/solver.h"
+
+namespace conebench::solvers {
+
+enum class Verdict { kGoOn, kStop };
+
+/// One point of a convergence curve.
+struct CurvePoint {
+  double time_s = 0.0;  ///< solver time, set-up included, residuals excluded
+  std::int64_t iteration = 0;
+  double eta = 0.0;
+};
+
+/// The stopwatch and referee of one solve.
+///
+/// A method calls check() with its iterate after every iteration (and once before the first).
+/// With StopTest::kCommon, eta is computed while the clock stands still: every method stops on the
+/// same test and none pays for it. To bound the cost of judging, eta is looked at when the
+/// iteration count has grown by 2 % since the last look (every iteration up to 50).
+/// With StopTest::kOwn only the limits are watched.
+class Monitor {
+ public:
+  /// Starts the clock. `standard` must outlive the monitor.
+  Monitor(const problems::Problem& standard, const Stop& stop);
+
+  /// Ends the set-up phase; call it once, before the first iteration.
+  void setup_done();
+
+  /// True when the next check() at this iteration will look at r. A method that keeps r in another
+  /// form asks first, to spare the conversion.
+  bool due(std::int64_t iteration) const;
+
+  Verdict check(std::int64_t iteration, const Eigen::VectorXd& r);
+
+  /// Solver time so far [s].
+  double elapsed_s() const;
+  double setup_s() const { return setup_s_; }
+
+  /// The reason for the last kStop; kStalled until there is one.
+  Status status() const { return status_; }
+  /// The iterate of least eta looked at so far; empty if none was.
+  const Eigen::VectorXd& best() const { return best_; }
+  double best_eta() const { return best_eta_; }
+  const std::vector<CurvePoint>& curve() const { return curve_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double look(std::int64_t iteration, const Eigen::VectorXd& r);
+  std::optional<Status> limit(std::int64_t iteration) const;
+
+  const problems::Problem& problem_;
+  Stop stop_;
+  Clock::time_point start_;
+  Clock::duration paused_{};
+  double setup_s_ = 0.0;
+  std::int64_t next_look_ = 0;
+  Status status_ = Status::kStalled;
+  Eigen::VectorXd best_;
+  double best_eta_ = std::numeric_limits<double>::infinity();
+  std::vector<CurvePoint> curve_;
+};
+
+}  // namespace conebench::solvers
