@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "problems/problem.h"
+
+namespace conebench::problems {
+
+/// Where the cones are in space: what a 3D view needs. Every table has one row a cone, or a body.
+struct Geometry {
+  using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
+
+  Table points;                ///< cones x 3 [m]
+  Table frames;                ///< cones x 9: normal, first and second tangent, unit vectors
+  Pairs bodies_of_cone;        ///< cones x 2: body indices; -1 is a wall or the ground
+  Table body_positions;        ///< bodies x 3 [m]
+  Eigen::VectorXd body_radii;  ///< bodies; 0 where a body is not a sphere [m]
+};
+
+/// An answer to the *standard* problem.
+struct Solution {
+  Eigen::VectorXd r;  ///< r' = r + kappa e_n, one entry a row [force_unit]
+  Eigen::VectorXd u;  ///< one entry a row, or empty [rate_unit]
+  Eigen::VectorXd v;  ///< one entry a dof, or empty
+  double eta = 0.0;   ///< its residual when it was written
+};
+
+/// Everything a problem file holds.
+struct ProblemFile {
+  Problem problem;
+  std::optional<Geometry> geometry;
+  Eigen::VectorXd guess;  ///< r' to start from, or empty
+  std::optional<Solution> solution;
+};
+
+/// Writes version 1 of our format: to a temporary name beside `path`, synced, renamed.
+/// Throws OutputError (unwritable, disk full) and then leaves nothing behind.
+void write_problem_file(const std::filesystem::path& path, const ProblemFile& file);
+
+/// Reads version 1 of our format. Throws InputError naming file and dataset.
+ProblemFile read_problem_file(const std::filesystem::path& path);
+
+/// Writes a file with /solution/{r,u,v} only, atomically; what `conebench solve -o` leaves.
+void write_solution_file(const std::filesystem::path& path, const Problem& problem,
+                         const Solution& solution);
+
+/// SHA-256 (hex) over the canonical content of the problem: little-endian numbers, rows sorted,
+/// stored zeros dropped, duplicates summed. Twins in two formats hash alike; names do not count.
+std::string content_sha256(const Problem& problem);
+
+}  // namespace conebench::problems
