@@ -63,4 +63,12 @@ Verdict Monitor::check(std::int64_t iteration, const Eigen::VectorXd& r) {
   return Verdict::kStop;
 }
 
+Status Monitor::conclude(Status why, std::int64_t iteration, const Eigen::VectorXd& r) {
+  status_ = why;
+  if (stop_.test == StopTest::kCommon && look(iteration, r) <= stop_.tol) {
+    status_ = Status::kConverged;
+  }
+  return status_;
+}
+
 }  // namespace conebench::solvers

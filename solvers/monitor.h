@@ -38,6 +38,10 @@ class Monitor {
 
   Verdict check(std::int64_t iteration, const Eigen::VectorXd& r);
 
+  /// For a method that stops for a reason of its own: looks at r once more (kCommon) and answers
+  /// kConverged if it is good enough, else `why`.
+  Status conclude(Status why, std::int64_t iteration, const Eigen::VectorXd& r);
+
   /// Solver time so far [s].
   double elapsed_s() const;
   double setup_s() const { return setup_s_; }

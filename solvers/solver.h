@@ -76,8 +76,8 @@ struct Parameter {
   Value fallback;                                         ///< the default
   double low = -std::numeric_limits<double>::infinity();  ///< of numbers, inclusive
   double high = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices;  ///< of a string
-  std::string doc;                   ///< one sentence, with the unit
+  std::vector<std::string> choices{};  ///< of a string
+  std::string doc{};                   ///< one sentence, with the unit
 };
 
 /// A solver with its parameters set: a name, what it can solve, and a pure function.

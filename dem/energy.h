@@ -1,0 +1,40 @@
+#pragma once
+
+#include "dem/contacts.h"
+#include "dem/scene.h"
+#include "dem/spheres.h"
+
+namespace conebench::dem {
+
+/// Where the energy went since the start [J]. Exact for the scheme, not only for small steps:
+///
+///   kinetic + potential - initial = bond + friction + impact + scheme     up to rounding,
+///
+/// with the work of the reactions taken at (v_minus + v) / 2, and the scheme's own part
+/// -1/2 h f_ext . (v - v_minus), which positions moved with the new velocity bring in. The
+/// gyroscopic part is zero for spheres.
+struct EnergyLedger {
+  double kinetic_J = 0.0;
+  double potential_J = 0.0;
+  double initial_J = 0.0;   ///< kinetic + potential at the start
+  double bond_J = 0.0;      ///< work of the tensile strength, -kappa u_n: breaking a bond costs it
+  double friction_J = 0.0;  ///< work of the tangential reactions
+  double impact_J = 0.0;    ///< work of the normal reactions above the strength, r'_n u_n
+  double scheme_J = 0.0;
+
+  /// What the ledger fails to explain [J].
+  double closure_J() const;
+  /// The same over the largest entry [-].
+  double relative_closure() const;
+};
+
+/// Of all free spheres; potential is zero at the origin of the scene.
+double kinetic_energy(const Spheres& spheres);
+double potential_energy(const Scene& scene, const Spheres& spheres);
+
+/// Books the work of one contact's reaction `r` (local frame, unshifted, [N s]) while the relative
+/// velocity goes from `u_before` to `u_after` (local frame).
+void book_work(const Eigen::Vector3d& r, double kappa, const Eigen::Vector3d& u_before,
+               const Eigen::Vector3d& u_after, EnergyLedger& ledger);
+
+}  // namespace conebench::dem

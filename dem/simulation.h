@@ -1,0 +1,72 @@
+#pragma once
+
+#include "dem/assembly.h"
+#include "dem/energy.h"
+#include "dem/step.h"
+
+namespace conebench::dem {
+
+/// Totals of a run so far.
+struct Summary {
+  std::int64_t steps = 0;
+  std::int64_t free_steps = 0;         ///< without a contact that entered
+  std::int64_t unconverged_steps = 0;  ///< the engine went on with the solver's best answer
+  std::int64_t iterations = 0;         ///< of the step solver
+  std::int64_t most_cones = 0;         ///< of one step's problem
+  std::int64_t last_cones = 0;
+  std::int64_t last_bonds = 0;
+  double deepest_overlap_m = 0.0;  ///< of all steps
+  double solve_s = 0.0;            ///< in the step solver, as it says
+  double engine_s = 0.0;           ///< everything else but the observers
+};
+
+/// Rigid spheres between walls, with Coulomb friction, restitution and cohesion: non-smooth
+/// contact dynamics, time-stepping of Moreau and Jean with one cone problem a step (assembly.h).
+///
+///   contacts listed at x;  M v = f + H^T r  with (u, r) in the cones;
+///   x += h v;  rotation by exp(h omega).
+///
+/// Cost    broad phase and assembly are linear in spheres and contacts; the step solver dominates.
+/// Errors  InputError for an unusable scene; std::runtime_error when the step solver returns
+///         numbers that are not finite. A step that does not converge is counted, not an error.
+/// Source  Jean, CMAME 177 (1999) 235-257 (not checked). Differs: positions move with the new
+///         velocity alone, without a midpoint configuration.
+class Simulation {
+ public:
+  Simulation(Scene scene, StepSolver solver);
+
+  /// Called after every step, in the order they were added.
+  void add_observer(Observer observer) { observers_.push_back(std::move(observer)); }
+
+  void step();
+  /// Steps until `count` steps have been done in all.
+  void run(std::int64_t count);
+
+  const Scene& scene() const { return scene_; }
+  const Spheres& spheres() const { return spheres_; }
+  const ContactList& contacts() const { return contacts_; }
+  const EnergyLedger& energy() const { return energy_; }
+  const Summary& summary() const { return summary_; }
+  double time_s() const { return static_cast<double>(summary_.steps) * scene_.step_s; }
+
+ private:
+  void accelerate();
+  void check_answer(const StepAnswer& answer, Eigen::Index rows) const;
+  void apply_reactions(const problems::Problem& problem, const Eigen::VectorXd& shifted_r);
+  void push(const Contact& contact);
+  void move();
+  void book_step(const StepAnswer& answer);
+
+  Scene scene_;
+  StepSolver solver_;
+  Spheres spheres_;
+  Spheres before_;
+  ContactList contacts_;
+  Assembly assembly_;
+  std::vector<Eigen::Vector3d> local_reactions_;  // of each cone, unshifted
+  EnergyLedger energy_;
+  Summary summary_;
+  std::vector<Observer> observers_;
+};
+
+}  // namespace conebench::dem

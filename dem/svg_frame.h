@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dem/scene.h"
+#include "dem/spheres.h"
+
+namespace conebench::dem {
+
+/// One moment of a simulation, as much of it as a picture needs.
+struct Frame {
+  double time_s = 0.0;
+  std::vector<Eigen::Vector3d> positions;  ///< [m]
+  std::vector<double> radii;               ///< [m]
+  std::vector<double> speeds;              ///< [m/s]
+};
+
+Frame make_frame(const Spheres& spheres, double time_s);
+
+/// Where the eye is and what the colours mean; one view for all frames of a film.
+struct View {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: right, up, towards the eye
+  Eigen::Vector2d low = Eigen::Vector2d::Zero();       ///< corner of the window [m]
+  Eigen::Vector2d high = Eigen::Vector2d::Ones();      ///< opposite corner [m]
+  double fastest_m_s = 1.0;                            ///< speed at the end of the colour scale
+};
+
+/// A view that holds all frames: along +y, slightly from the side and from above, up against
+/// gravity (z without gravity), parallel projection.
+View fit_view(const Scene& scene, std::span<const Frame> frames);
+
+/// An SVG picture: the spheres as shaded discs, far ones first, coloured by speed (viridis, which
+/// colour-blind readers can read), with shadows on the floors, a scale and a caption. Floors are
+/// the scene's planes that face upwards; walls are not drawn. Depends on nothing outside the file.
+std::string draw_svg(const Scene& scene, const Frame& frame, const View& view);
+
+}  // namespace conebench::dem

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <toml++/toml.h>
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace conebench::dem {
+
+/// What a number may be; said in words in the error.
+enum class Range { kAny, kNotNegative, kPositive, kUnitInterval };
+
+/// One TOML table, read key by key. Every key asked for is remembered, so that finish() can name
+/// those that nobody knows. Internal to the scene parser.
+///
+/// Errors: InputError "<subject>: line 7: materials[0].density_kg_m3: found -3, expected > 0".
+class TomlReader {
+ public:
+  /// `path` is the prefix of key names in errors: "" or "materials[0].".
+  TomlReader(const toml::table& table, std::string path, std::string subject);
+
+  /// Without a fallback the key is required.
+  double number(std::string_view key, Range range, std::optional<double> fallback = {});
+  std::int64_t integer(std::string_view key, std::int64_t low,
+                       std::optional<std::int64_t> fallback = {});
+  bool boolean(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::optional<std::string> fallback = {});
+  Eigen::Vector3d vector(std::string_view key, std::optional<Eigen::Vector3d> fallback = {});
+  Eigen::Vector2d interval(std::string_view key, Range range);
+  std::vector<std::string> texts(std::string_view key, std::size_t count);
+
+  /// The sub-table, or nothing; and the elements of an array of tables, possibly none.
+  std::optional<TomlReader> table(std::string_view key);
+  std::vector<TomlReader> tables(std::string_view key);
+
+  /// Throws unless every key of the table has been asked for.
+  void finish() const;
+
+  /// Throws an InputError about `key`.
+  [[noreturn]] void fail(std::string_view key, std::string_view detail) const;
+
+ private:
+  const toml::node* find(std::string_view key);
+  const toml::node& need(std::string_view key, std::string_view expected);
+  double to_number(const toml::node& node, std::string_view key, Range range) const;
+  std::vector<double> numbers(const toml::node& node, std::string_view key, std::size_t count,
+                              Range range) const;
+
+  const toml::table* table_;
+  std::string path_, subject_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace conebench::dem

@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "harness/commands/commands.h"
+#include "harness/solver_check.h"
+#include "problems/error.h"
+#include "problems/suggest.h"
+#include "results/text.h"
+#include "solvers/registry.h"
+
+namespace conebench::harness {
+namespace {
+
+using nlohmann::json;
+
+std::string text_of(const solvers::Value& value) {
+  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+}
+
+std::string range_of(const solvers::Parameter& p) {
+  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, ", "));
+  if (std::holds_alternative<bool>(p.fallback)) return "true, false";
+  const bool low = std::isfinite(p.low), high = std::isfinite(p.high);
+  if (low && high) return fmt::format("{} to {}", p.low, p.high);
+  if (low) return fmt::format(">= {}", p.low);
+  if (high) return fmt::format("<= {}", p.high);
+  return "any";
+}
+
+json to_json(const solvers::Parameter& p) {
+  json value = {{"name", p.name}, {"doc", p.doc}, {"choices", p.choices}};
+  std::visit([&](const auto& v) { value["default"] = v; }, p.fallback);
+  value["low"] = std::isfinite(p.low) ? json(p.low) : json(nullptr);
+  value["high"] = std::isfinite(p.high) ? json(p.high) : json(nullptr);
+  return value;
+}
+
+json to_json(const solvers::Method& method) {
+  json parameters = json::array();
+  for (const auto& p : method.parameters) parameters.push_back(to_json(p));
+  return {{"name", method.name},
+          {"kind", solvers::to_string(method.kind)},
+          {"summary", method.summary},
+          {"parameters", parameters}};
+}
+
+const solvers::Method& method_named(const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& method : solvers::all_methods()) {
+    if (method.name == name) return method;
+    known.push_back(method.name);
+  }
+  throw problems::InputError(
+      name, fmt::format("no such solver{}; known: {}", problems::suggestion(name, known),
+                        fmt::join(known, ", ")));
+}
+
+void list(bool as_json) {
+  if (as_json) {
+    json all = json::array();
+    for (const auto& method : solvers::all_methods()) all.push_back(to_json(method));
+    fmt::print("{}\n", all.dump(2));
+    return;
+  }
+  for (const auto& method : solvers::all_methods()) {
+    fmt::print("{:<12} {:<7} {}\n", method.name, solvers::to_string(method.kind), method.summary);
+  }
+}
+
+void show(const std::string& name, bool as_json) {
+  const solvers::Method& method = method_named(name);
+  if (as_json) {
+    fmt::print("{}\n", to_json(method).dump(2));
+    return;
+  }
+  fmt::print("{} ({}): {}\n", method.name, solvers::to_string(method.kind), method.summary);
+  for (const auto& p : method.parameters) {
+    fmt::print("\n  {} = {}   ({})\n      {}\n", p.name, text_of(p.fallback), range_of(p), p.doc);
+  }
+}
+
+int check(const std::string& variant, const std::vector<std::filesystem::path>& paths) {
+  bool good = true;
+  for (const CheckResult& result : check_solver(solvers::make_solver(variant), paths)) {
+    const auto& r = result.record;
+    fmt::print("{}  {}: {}, eta {}, {} iterations{}\n", result.passed ? "pass" : "FAIL",
+               r.problem.name, results::to_string(r.status), results::format_eta(r.eta),
+               r.iterations, r.error.empty() ? "" : ", " + r.error);
+    good = good && result.passed;
+  }
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+void add_solver(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::string name;
+    std::vector<std::filesystem::path> paths;
+    bool json = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand("solver", "List, show or check the solvers");
+  verb->require_subcommand(1);
+
+  CLI::App* list_verb = verb->add_subcommand("list", "All solvers, one a line");
+  list_verb->add_flag("--json", options->json, "Print one JSON array");
+  list_verb->callback([options] { list(options->json); });
+
+  CLI::App* show_verb = verb->add_subcommand("show", "A solver's parameters");
+  show_verb->add_option("NAME", options->name, "e.g. gs")->required();
+  show_verb->add_flag("--json", options->json, "Print one JSON object");
+  show_verb->callback([options] { show(options->name, options->json); });
+
+  CLI::App* check_verb = verb->add_subcommand(
+      "check", "Run a solver on small problems of every kind, with known solutions");
+  check_verb->add_option("VARIANT", options->name, "e.g. gs[omega=0.8]")->required();
+  check_verb->add_option("PATH", options->paths, "Problem files or folders to use instead");
+  check_verb->callback([options, &exit_code] { exit_code = check(options->name, options->paths); });
+}
+
+}  // namespace conebench::harness

@@ -1,0 +1,68 @@
+#include "harness/judge.h"
+
+#include <fmt/format.h>
+
+#include "problems/residual.h"
+
+namespace conebench::harness {
+namespace {
+
+using results::Status;
+
+Status translated(solvers::Status status) {
+  switch (status) {
+    case solvers::Status::kConverged:
+      return Status::kConverged;
+    case solvers::Status::kIterationLimit:
+      return Status::kIterationLimit;
+    case solvers::Status::kTimeLimit:
+      return Status::kTimeLimit;
+    case solvers::Status::kStalled:
+      return Status::kStalled;
+    case solvers::Status::kDiverged:
+      return Status::kDiverged;
+    case solvers::Status::kInfeasible:
+      return Status::kInfeasible;
+    case solvers::Status::kUnsupported:
+      return Status::kUnsupported;
+  }
+  return Status::kBadOutput;
+}
+
+bool may_be_empty(Status status) {
+  return status == Status::kUnsupported || status == Status::kInfeasible;
+}
+
+}  // namespace
+
+void judge(const problems::Problem& standard, const solvers::Result& result,
+           results::Record& record) {
+  record.status = translated(result.status);
+  record.claimed = solvers::to_string(result.status);
+  record.iterations = result.iterations;
+  record.setup_s = result.setup_s;
+  record.solve_s = result.solve_s;
+  record.notes = result.notes;
+  if (result.r.size() == 0 && standard.rows() > 0 && may_be_empty(record.status)) return;
+  if (result.r.size() != standard.rows()) {
+    record.status = Status::kBadOutput;
+    record.error =
+        fmt::format("r has {} entries, the problem {} rows", result.r.size(), standard.rows());
+    return;
+  }
+
+  const problems::Residual residual = problems::evaluate_residual(standard, result.r);
+  if (!residual.finite) {
+    record.status = Status::kNotFinite;
+    record.error = "the answer, or its residual, holds a NaN or an infinity";
+    return;
+  }
+  record.eta = residual.eta.max;
+  record.fclib_residual = residual.fclib;
+  record.siconos_residual = residual.siconos;
+  record.attainable_eta = residual.attainable_eta;
+  const bool refuted = record.status == Status::kConverged && !record.solved();
+  if (refuted && record.kind != "model") record.status = Status::kRefuted;
+}
+
+}  // namespace conebench::harness

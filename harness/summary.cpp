@@ -1,0 +1,69 @@
+#include "harness/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "harness/interrupt.h"
+#include "problems/error.h"
+#include "results/journal.h"
+#include "results/report.h"
+#include "solvers/registry.h"
+
+namespace conebench::harness {
+
+std::vector<solvers::Solver> make_all_solvers(const std::vector<std::string>& variants) {
+  std::vector<solvers::Solver> all;
+  for (const std::string& variant : variants) {
+    for (solvers::Solver& solver : solvers::make_solvers(variant)) {
+      const bool known =
+          std::any_of(all.begin(), all.end(), [&](const auto& s) { return s.name == solver.name; });
+      if (!known) all.push_back(std::move(solver));
+    }
+  }
+  return all;
+}
+
+void tell(const FoundSources& found) {
+  fmt::print(stderr, "{} problems", found.problems.size());
+  if (found.twins > 0) fmt::print(stderr, ", {} files with equal content left out", found.twins);
+  if (found.skipped > 0) fmt::print(stderr, ", {} other files skipped", found.skipped);
+  fmt::print(stderr, "\n");
+  for (const std::string& why : found.unreadable) fmt::print(stderr, "left out: {}\n", why);
+}
+
+int tell(const CampaignSummary& summary) {
+  fmt::print(stderr, "{} tasks: {} done now, {} kept from before\n", summary.tasks, summary.done,
+             summary.earlier);
+  for (const std::string& task : summary.lost) fmt::print(stderr, "could not run: {}\n", task);
+  if (summary.interrupted) {
+    fmt::print(stderr, "interrupted; the same command goes on where this one stopped\n");
+    return kInterruptedExit;
+  }
+  return summary.lost.empty() ? 0 : 3;
+}
+
+void print_rankings(std::span<const results::Record> records) {
+  for (const results::Group& group : results::group_by_settings(records)) {
+    if (group.methods.empty()) continue;
+    fmt::print("{}\n", results::describe(group.settings));
+    for (const double tol : group.tolerances()) {
+      fmt::print("\nverified eta <= {:.0e}\n{}", tol, results::ranking_table(group.methods, tol));
+    }
+    fmt::print("\n");
+  }
+}
+
+std::vector<results::Record> load_records(const std::filesystem::path& results_dir) {
+  const auto path = results::journal_path(results_dir);
+  problems::require(std::filesystem::exists(path), results_dir.string(), "holds no ",
+                    path.filename().string(), ", so no results");
+  results::JournalContent content = results::read_journal(path);
+  if (content.torn_lines > 0) {
+    fmt::print(stderr, "{}: {} torn lines do not count\n", path.string(), content.torn_lines);
+  }
+  return std::move(content.records);
+}
+
+}  // namespace conebench::harness

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "results/report.h"
+
+namespace conebench::results {
+namespace {
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : std::string();
+}
+
+std::string joined(const std::vector<std::string>& notes) {
+  return fmt::format("{}", fmt::join(notes, "; "));
+}
+
+}  // namespace
+
+std::string csv_report(std::span<const Record> records) {
+  std::string csv =
+      "problem,content_sha256,path,family,cones,solver,kind,tol,time_limit_s,memory_limit_bytes,"
+      "stop,repetition,status,claimed,eta,fclib_residual,siconos_residual,attainable_eta,"
+      "iterations,time_to_1e-4_s,time_to_1e-6_s,time_to_tol_s,setup_s,solve_s,wall_s,cpu_s,"
+      "peak_memory_bytes,started_at,notes,error\n";
+  for (const Record& r : records) {
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},", quoted(r.problem.name),
+                       r.problem.content_sha256, quoted(r.problem.path), quoted(r.problem.family),
+                       r.problem.cones, quoted(r.solver), r.kind, r.settings.tol,
+                       number(r.settings.time_limit_s), r.settings.memory_limit_bytes,
+                       r.settings.stop, r.repetition, to_string(r.status), r.claimed);
+    csv += fmt::format("{},{},{},{},{},{},{},{},", number(r.eta), number(r.fclib_residual),
+                       number(r.siconos_residual), number(r.attainable_eta), r.iterations,
+                       number(time_to_tolerance(r, 1e-4)), number(time_to_tolerance(r, 1e-6)),
+                       number(time_to_tolerance(r, r.settings.tol)));
+    csv += fmt::format("{},{},{},{},{},{},{},{}\n", r.setup_s, r.solve_s, r.wall_s, r.cpu_s,
+                       r.peak_memory_bytes, r.started_at, quoted(joined(r.notes)), quoted(r.error));
+  }
+  return csv;
+}
+
+}  // namespace conebench::results

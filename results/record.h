@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "results/status.h"
+
+namespace conebench::results {
+
+/// What was solved.
+struct ProblemId {
+  std::string name;            ///< e.g. "column-dry_000420"
+  std::string content_sha256;  ///< the same for twins in two formats
+  std::string path;
+  std::string family;  ///< "engine/scene"; what a file does not say is left out
+  int cones = 0;
+};
+
+/// The rules of a task. Results are compared only where these agree.
+struct Settings {
+  double tol = 1e-8;  ///< on eta [-]
+  double time_limit_s = std::numeric_limits<double>::infinity();
+  std::uint64_t memory_limit_bytes = 0;  ///< 0: none
+  std::string stop = "common";           ///< "common" or "own": see solvers::StopTest
+
+  bool operator==(const Settings&) const = default;
+};
+
+/// The machine and the build that a task ran on.
+struct Host {
+  std::string cpu;       ///< model name
+  int cores = 0;         ///< that this process may use
+  std::string compiler;  ///< name and version
+  std::string build;     ///< "RelWithDebInfo, native, ..."
+  std::string version;   ///< of conebench
+
+  bool operator==(const Host&) const = default;
+};
+
+/// One look at the iterate during a solve.
+struct CurvePoint {
+  double time_s = 0.0;  ///< solver time, set-up included, residuals excluded
+  std::int64_t iteration = 0;
+  double eta = 0.0;
+};
+
+/// One task: one solver on one problem, once. Residuals are recomputed from r' after the solve by
+/// problems::evaluate_residual; the solver's own estimate appears nowhere. A residual that could
+/// not be computed is infinite, and `status` says why.
+struct Record {
+  static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+
+  ProblemId problem;
+  std::string solver;           ///< variant identity
+  std::string kind = "method";  ///< "method", "model" or "peer"
+  Settings settings;
+  int repetition = 0;
+
+  Status status = Status::kCrashed;
+  std::string claimed;    ///< the solver's own status; empty if it never answered
+  double eta = kUnknown;  ///< [-]
+  double fclib_residual = kUnknown;
+  double siconos_residual = kUnknown;
+  double attainable_eta = kUnknown;  ///< what rounding allows: see problems::Residual
+  std::int64_t iterations = 0;
+  double setup_s = 0.0, solve_s = 0.0;  ///< solver time before and in the iterations
+  double wall_s = 0.0, cpu_s = 0.0;     ///< of the whole worker, loading and judging included
+  std::uint64_t peak_memory_bytes = 0;  ///< of the whole worker
+  std::vector<CurvePoint> curve;        ///< empty with the solver's own stopping test
+  std::vector<std::string> notes;
+  std::string error;       ///< a signal, an exception, the tail of stderr
+  std::string started_at;  ///< UTC, ISO 8601
+  Host host;
+
+  /// True when the *verified* eta meets the tolerance, whatever the solver said.
+  bool solved() const { return eta <= settings.tol; }
+};
+
+/// Identifies a task: a hash of problem content, solver, settings and repetition. [32 hex digits]
+std::string task_key(const Record& record);
+
+/// One flat object. JSON has no infinity: non-finite numbers become null, and null reads back as
+/// infinity.
+nlohmann::json to_json(const Record& record);
+
+/// Throws problems::InputError naming `where` when a member is missing or of the wrong type.
+Record record_from_json(const nlohmann::json& json, const std::string& where);
+
+nlohmann::json to_json(const Host& host);
+
+}  // namespace conebench::results

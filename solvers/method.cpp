@@ -1,0 +1,47 @@
+#include "solvers/method.h"
+
+#include "problems/error.h"
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Problem;
+using problems::require;
+
+Eigen::VectorXd starting_point(const Problem& problem, const Eigen::VectorXd& guess) {
+  if (guess.size() == 0) return Eigen::VectorXd::Zero(problem.rows());
+  require(guess.size() == problem.rows(), problem.name(), "the guess has ", guess.size(),
+          " entries, expected ", problem.rows(), " or none");
+  require(guess.allFinite(), problem.name(), "the guess holds a NaN or an infinity");
+  return guess;
+}
+
+Result unsupported(const Problem& problem, std::string why) {
+  Result result;
+  result.r = Eigen::VectorXd::Zero(problem.rows());
+  result.notes.push_back(std::move(why));
+  return result;
+}
+
+}  // namespace
+
+Solver make_checked_solver(const Method& method, const Values& values, Refuses refuses,
+                           Iterate iterate) {
+  auto solve = [refuses, iterate = std::move(iterate)](const Problem& problem,
+                                                       const Request& request) {
+    require(problem.is_standard(), problem.name(), "kappa > 0, expected the standard problem");
+    request.stop.check();
+    if (auto why = refuses(problem)) return unsupported(problem, std::move(*why));
+    std::optional<Monitor> own;
+    Monitor& monitor = request.monitor ? *request.monitor : own.emplace(problem, request.stop);
+    Result result = iterate(problem, request.stop, starting_point(problem, request.guess), monitor);
+    result.setup_s = monitor.setup_s();
+    result.solve_s = monitor.elapsed_s() - monitor.setup_s();
+    if (monitor.best().size() > 0 || problem.rows() == 0) result.r = monitor.best();
+    return result;
+  };
+  return {identity(method, values), method.kind, method.parameters, std::move(refuses),
+          std::move(solve)};
+}
+
+}  // namespace conebench::solvers

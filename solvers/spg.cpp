@@ -1,0 +1,256 @@
+#include "solvers/spg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Cone;
+using problems::Problem;
+
+constexpr double kSufficientDecrease = 1e-4;
+constexpr double kLongestStep = 1e10;
+// u is updated by W d; recomputed from r this often, since rounding accumulates.
+constexpr std::int64_t kIterationsPerRefresh = 100;
+// Below this share of max lambda_i |r_i|, a step is rounding, not progress.
+constexpr double kNoProgress = 1e-16;
+
+enum class Step { kLong, kShort, kAdaptive };
+
+struct Settings {
+  std::int64_t memory = 10;
+  std::int64_t refresh = 1;
+  Step step = Step::kAdaptive;
+};
+
+// f_s of past iterates: f_0 and r_n of each, so that it can be evaluated for any s.
+class History {
+ public:
+  explicit History(std::int64_t memory) : memory_(static_cast<std::size_t>(memory)) {}
+
+  void add(double f0, Eigen::VectorXd normals) {
+    Entry entry{f0, std::move(normals)};
+    if (entries_.size() < memory_) {
+      entries_.push_back(std::move(entry));
+    } else {
+      entries_[oldest_] = std::move(entry);
+      oldest_ = (oldest_ + 1) % memory_;
+    }
+  }
+
+  double largest(const Eigen::VectorXd& theta_s) const {
+    double worst = -std::numeric_limits<double>::infinity();
+    for (const Entry& entry : entries_) {
+      worst = std::max(worst, entry.f0 + theta_s.dot(entry.normals));
+    }
+    return worst;
+  }
+
+ private:
+  struct Entry {
+    double f0;
+    Eigen::VectorXd normals;
+  };
+  std::size_t memory_, oldest_ = 0;
+  std::vector<Entry> entries_;
+};
+
+class Iteration {
+ public:
+  Iteration(const Problem& problem, const Settings& settings, Eigen::VectorXd guess)
+      : problem_(problem),
+        settings_(settings),
+        r_(std::move(guess)),
+        theta_s_(Eigen::VectorXd::Zero(problem.cone_count())),
+        history_(settings.memory) {
+    for (int i = 0; i < problem.cone_count(); ++i) project(i, r_);
+    u_ = problem.rate(r_);
+  }
+
+  const Eigen::VectorXd& r() const { return r_; }
+  bool stalled() const { return stalled_; }
+
+  void advance(std::int64_t iteration) {
+    if (iteration % kIterationsPerRefresh == 0 && iteration > 0) u_ = problem_.rate(r_);
+    if (iteration % settings_.refresh == 0) refresh_de_saxce();
+    const Eigen::VectorXd gradient = shifted_rate();
+    const Eigen::VectorXd d = projected_step(gradient, alpha_);
+    const Eigen::VectorXd Wd = problem_.apply_delassus(d);
+    const double slope = gradient.dot(d), curvature = d.dot(Wd);
+
+    const double f0 = 0.5 * r_.dot(u_ + problem_.q());
+    history_.add(f0, normals());
+    const double f = f0 + theta_s_.dot(normals());
+    const double t = line_search(f, slope, curvature);
+    r_ += t * d;
+    u_ += t * Wd;
+    update_alpha(d, Wd, curvature);
+    stalled_ = size_as_rate(d) * t <= kNoProgress * size_as_rate(r_);
+  }
+
+  // max lambda_i |r_i - P_K(r_i - u_hat_i / lambda_i)| with the De Saxce term of the current u.
+  double natural_residual() {
+    refresh_de_saxce();
+    return size_as_rate(projected_step(shifted_rate(), 1.0));
+  }
+
+ private:
+  const Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
+
+  void project(int i, Eigen::VectorXd& x) const {
+    const int at = problem_.start(i);
+    if (cone(i).dim == 3) {
+      Eigen::Vector3d part = x.segment<3>(at);
+      problems::project(cone(i).mu, part);
+      x.segment<3>(at) = part;
+    } else {
+      auto part = x.segment(at, cone(i).dim);
+      problems::project(cone(i).mu, part);
+    }
+  }
+
+  void refresh_de_saxce() {
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      theta_s_(i) = cone(i).theta * u_.segment(problem_.start(i) + 1, cone(i).dim - 1).norm();
+    }
+  }
+
+  Eigen::VectorXd shifted_rate() const {
+    Eigen::VectorXd u_hat = u_;
+    for (int i = 0; i < problem_.cone_count(); ++i) u_hat(problem_.start(i)) += theta_s_(i);
+    return u_hat;
+  }
+
+  Eigen::VectorXd projected_step(const Eigen::VectorXd& gradient, double alpha) const {
+    Eigen::VectorXd d = r_;
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      const int at = problem_.start(i), dim = cone(i).dim;
+      d.segment(at, dim) -= alpha / problem_.mobility()(i) * gradient.segment(at, dim);
+      project(i, d);
+    }
+    return d - r_;
+  }
+
+  Eigen::VectorXd normals() const {
+    Eigen::VectorXd n(problem_.cone_count());
+    for (int i = 0; i < problem_.cone_count(); ++i) n(i) = r_(problem_.start(i));
+    return n;
+  }
+
+  // f_s(r + t d) = f + t slope + t^2 curvature / 2, exactly.
+  double line_search(double f, double slope, double curvature) const {
+    const double reference = history_.largest(theta_s_);
+    double t = 1.0;
+    for (int shortening = 0; shortening < 60; ++shortening) {
+      const double reached = f + t * (slope + 0.5 * t * curvature);
+      if (!(reached > reference + kSufficientDecrease * t * slope)) break;
+      const double minimum = curvature > 0.0 ? -slope / curvature : 0.0;
+      t = std::clamp(minimum, 0.1 * t, 0.5 * t);
+    }
+    return t;
+  }
+
+  void update_alpha(const Eigen::VectorXd& d, const Eigen::VectorXd& Wd, double curvature) {
+    double metric = 0.0, dual_metric = 0.0;
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      const int at = problem_.start(i), dim = cone(i).dim;
+      metric += problem_.mobility()(i) * d.segment(at, dim).squaredNorm();
+      dual_metric += Wd.segment(at, dim).squaredNorm() / problem_.mobility()(i);
+    }
+    const double longest = curvature > 0.0 ? metric / curvature : kLongestStep;
+    const double shortest = dual_metric > 0.0 ? curvature / dual_metric : kLongestStep;
+    const bool take_short = settings_.step == Step::kShort ||
+                            (settings_.step == Step::kAdaptive && shortest < 0.5 * longest);
+    alpha_ = std::clamp(take_short ? shortest : longest, 1.0 / kLongestStep, kLongestStep);
+  }
+
+  double size_as_rate(const Eigen::VectorXd& x) const {
+    double largest = 0.0;
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      const double size = x.segment(problem_.start(i), cone(i).dim).norm();
+      largest = std::max(largest, problem_.mobility()(i) * size);
+    }
+    return largest;
+  }
+
+  const Problem& problem_;
+  Settings settings_;
+  Eigen::VectorXd r_, u_;
+  Eigen::VectorXd theta_s_;  // theta_i s_i
+  double alpha_ = 1.0;
+  History history_;
+  bool stalled_ = false;
+};
+
+Result iterate(const Problem& problem, const Settings& settings, const Stop& stop,
+               Eigen::VectorXd guess, Monitor& monitor) {
+  Iteration iteration(problem, settings, std::move(guess));
+  monitor.setup_done();
+  Result result;
+  while (true) {
+    if (monitor.check(result.iterations, iteration.r()) == Verdict::kStop) {
+      result.status = monitor.status();
+      break;
+    }
+    if (iteration.stalled()) {
+      result.status = monitor.conclude(Status::kStalled, result.iterations, iteration.r());
+      break;
+    }
+    iteration.advance(result.iterations);
+    ++result.iterations;
+    if (stop.test == StopTest::kOwn &&
+        iteration.natural_residual() <= stop.tol * problem.rate_scale()) {
+      result.status = Status::kConverged;
+      break;
+    }
+  }
+  result.r = iteration.r();
+  return result;
+}
+
+Solver make(const Method& method, const Values& values) {
+  const std::string step = std::get<std::string>(values.at("step"));
+  const Settings settings{std::get<std::int64_t>(values.at("memory")),
+                          std::get<std::int64_t>(values.at("refresh")),
+                          step == "long"    ? Step::kLong
+                          : step == "short" ? Step::kShort
+                                            : Step::kAdaptive};
+  auto refuses = [](const Problem& problem) -> std::optional<std::string> {
+    if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
+    return std::nullopt;
+  };
+  auto run = [settings](const Problem& problem, const Stop& stop, Eigen::VectorXd guess,
+                        Monitor& monitor) {
+    return iterate(problem, settings, stop, std::move(guess), monitor);
+  };
+  return make_checked_solver(method, values, refuses, run);
+}
+
+}  // namespace
+
+Method spectral_projected_gradient() {
+  Method method{.name = "spg",
+                .kind = Kind::kMethod,
+                .summary = "spectral projected gradient, non-monotone, De Saxce term refreshed",
+                .parameters = {{.name = "memory",
+                                .fallback = std::int64_t{10},
+                                .low = 1,
+                                .high = 100,
+                                .doc = "iterates that the line search compares with [-]"},
+                               {.name = "refresh",
+                                .fallback = std::int64_t{1},
+                                .low = 1,
+                                .high = 10000,
+                                .doc = "iterations between two refreshes of the De Saxce term [-]"},
+                               {.name = "step",
+                                .fallback = std::string("adaptive"),
+                                .choices = {"adaptive", "long", "short"},
+                                .doc = "which Barzilai-Borwein step length"}},
+                .make = {}};
+  method.make = [method](const Values& values) { return make(method, values); };
+  return method;
+}
+
+}  // namespace conebench::solvers
