@@ -78,17 +78,17 @@ class RowWriter {
   int next_ = 0;
 };
 
-// One sphere's part of a contact's rows: direction . (+-v + omega x arm), arm = -+ R n. Both
-// signs cancel in the torque, so it is -R (n x direction) for either partner; for the normal it
-// vanishes and is left out.
+// One sphere's part of a contact's rows: direction . (+-v + omega x arm), arm = -+ R n. Both signs
+// cancel in the torque -R (n x direction), which is the same for either partner: 0 for the normal
+// (left out), -R t2 for the first tangent, R t1 for the second.
 void add_sphere(const Spheres& spheres, int body, double sign, const Contact& contact, int row,
                 RowWriter& H) {
   const auto i = static_cast<std::size_t>(body);
   const int dof = spheres.first_dof[i];
   if (dof < 0) return;
-  const Eigen::Vector3d direction = contact.frame.col(row);
-  H.add(dof, sign * direction);
-  if (row > 0) H.add(dof + 3, -spheres.radius[i] * contact.normal().cross(direction));
+  H.add(dof, sign * contact.frame.col(row));
+  if (row == 1) H.add(dof + 3, -spheres.radius[i] * contact.frame.col(2));
+  if (row == 2) H.add(dof + 3, spheres.radius[i] * contact.frame.col(1));
 }
 
 void write_rows(const Spheres& spheres, const ContactList& list, Assembly& out) {

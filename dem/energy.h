@@ -17,7 +17,7 @@ struct EnergyLedger {
   double kinetic_J = 0.0;
   double potential_J = 0.0;
   double initial_J = 0.0;   ///< kinetic + potential at the start
-  double bond_J = 0.0;      ///< work of the tensile strength, -kappa u_n: breaking a bond costs it
+  double bond_J = 0.0;      ///< work of the tensile strength, -kappa u_n
   double friction_J = 0.0;  ///< work of the tangential reactions
   double impact_J = 0.0;    ///< work of the normal reactions above the strength, r'_n u_n
   double scheme_J = 0.0;

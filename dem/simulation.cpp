@@ -97,9 +97,11 @@ void Simulation::accelerate() {
   }
 }
 
-// v += M^-1 H^T r for one contact, whose reaction acts on `body` and is returned by `other`.
-void Simulation::push(const Contact& contact) {
-  const Eigen::Vector3d turn = contact.normal().cross(contact.reaction);
+// v += M^-1 H^T r for one contact; `r` is its reaction in the local frame. It acts on `body` and
+// its opposite on `other`.
+void Simulation::push(const Contact& contact, const Eigen::Vector3d& r) {
+  // n x reaction, with n x t1 = t2 and n x t2 = -t1.
+  const Eigen::Vector3d turn = r[1] * contact.frame.col(2) - r[2] * contact.frame.col(1);
   const auto apply = [&](int body, double sign) {
     const auto i = static_cast<std::size_t>(body);
     if (spheres_.first_dof[i] < 0) return;
@@ -127,7 +129,7 @@ void Simulation::apply_reactions(const problems::Problem& problem,
     r[0] -= cones[i].kappa;
     local_reactions_[i] = r;
     contact.reaction = contact.frame * r;
-    push(contact);
+    push(contact, r);
     if (r[0] > 0.0 && contacts_.law_of(contact).tensile_force_N > 0.0) contact.bonded = true;
   }
   for (std::size_t i = 0; i < cones.size(); ++i) {

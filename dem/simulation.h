@@ -53,7 +53,7 @@ class Simulation {
   void accelerate();
   void check_answer(const StepAnswer& answer, Eigen::Index rows) const;
   void apply_reactions(const problems::Problem& problem, const Eigen::VectorXd& shifted_r);
-  void push(const Contact& contact);
+  void push(const Contact& contact, const Eigen::Vector3d& r);
   void move();
   void book_step(const StepAnswer& answer);
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -213,6 +214,10 @@ Frame make_frame(const Spheres& spheres, double time_s) {
   Frame frame{time_s, spheres.position, spheres.radius, {}};
   for (const Eigen::Vector3d& v : spheres.velocity) frame.speeds.push_back(v.norm());
   return frame;
+}
+
+std::string draw_svg(const Scene& scene, const Frame& frame, const View& view) {
+  return Drawing(scene, frame, view).draw();
 }
 
 View fit_view(const Scene& scene, std::span<const Frame> frames) {

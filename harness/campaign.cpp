@@ -32,8 +32,7 @@ std::vector<Task> all_tasks(const CampaignOptions& options,
                          .stop = options.stop,
                          .memory_limit_bytes = options.memory_limit_bytes,
                          .hard_limit_s = options.hard_limit_s,
-                         .repetition = repetition,
-                         .solution_file = {}});
+                         .repetition = repetition});
       }
     }
   }

@@ -27,13 +27,13 @@ Rerun rerun_from(const std::string& name);
 struct CampaignOptions {
   solvers::Stop stop{};
   std::uint64_t memory_limit_bytes = 0;
-  std::optional<double> hard_limit_s;  ///< of a task; default_hard_limit_s() unless given
+  std::optional<double> hard_limit_s{};  ///< of a task; default_hard_limit_s() unless given
   int repetitions = 1;
   std::uint64_t seed = 1;  ///< of the order in which the tasks run
   int jobs = 1;            ///< at a time; 1 for fair timing
   Rerun rerun = Rerun::kNone;
-  std::filesystem::path results_dir;
-  std::string command;  ///< what the report shall say made the results
+  std::filesystem::path results_dir{};
+  std::string command{};  ///< what the report shall say made the results
   bool show_progress = false;
 };
 

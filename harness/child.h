@@ -15,7 +15,7 @@ namespace conebench::harness {
 struct ChildLimits {
   double wall_s = 60.0;            ///< then it is killed, with all of its process group
   std::uint64_t memory_bytes = 0;  ///< address space; 0: no limit. Not enforced under sanitizers
-  std::optional<int> core;         ///< run on this core only
+  std::optional<int> core{};       ///< run on this core only
 };
 
 /// How a child process ended.

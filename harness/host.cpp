@@ -49,8 +49,8 @@ results::Host current_host() {
           .version = version()};
 }
 
-std::string utc_now() {
-  const std::time_t now = std::time(nullptr);
+std::string utc_now(double seconds_ago) {
+  const std::time_t now = std::time(nullptr) - static_cast<std::time_t>(seconds_ago);
   std::tm utc{};
   ::gmtime_r(&now, &utc);
   char text[32];

@@ -2,7 +2,7 @@
 
 namespace conebench::harness {
 
-/// Makes SIGINT and SIGTERM set a flag instead of ending the process; the loops look at it.
+/// From now on SIGINT and SIGTERM set a flag instead of ending the process; run_pool() looks at it.
 void catch_interrupts();
 
 /// True once one of them arrived.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "harness/command_line.h"
-#include "harness/interrupt.h"
 
 namespace {
 
@@ -32,6 +31,5 @@ void pin_blas_threads(char** argv) {
 int main(int argc, char** argv) {
   pin_blas_threads(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit becomes an error that write() returns
-  conebench::harness::catch_interrupts();
   return conebench::harness::run_program({argv + 1, argv + argc});
 }

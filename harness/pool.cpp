@@ -51,6 +51,7 @@ std::vector<int> allowed_cores() {
 
 bool run_pool(std::size_t count, int jobs, const PoolCallbacks& callbacks) {
   std::vector<Slot> slots = make_slots(jobs);
+  catch_interrupts();
   std::size_t next = 0, finished = 0;
   while (finished < count) {
     if (interrupted()) return false;

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <variant>
 
+#include "harness/error_text.h"
 #include "harness/pool.h"
-#include "problems/error.h"
 #include "problems/load.h"
 
 namespace conebench::harness {
@@ -78,7 +79,7 @@ FoundSources find_sources(const std::vector<std::filesystem::path>& paths, int j
       run_pool(files.files.size(), jobs,
                {.make = [&](std::size_t i) -> Job {
                   return {.work = [path = files.files[i]] { return identify(path); },
-                          .limits = {.wall_s = kLoadLimit_s, .memory_bytes = 0, .core = {}}};
+                          .limits = {.wall_s = kLoadLimit_s, .memory_bytes = 0}};
                 },
                 .done =
                     [&](std::size_t i, const ChildOutcome& outcome) {
@@ -92,7 +93,7 @@ FoundSources find_sources(const std::vector<std::filesystem::path>& paths, int j
   for (std::size_t i = 0; i < identities.size(); ++i) {
     if (const auto* why = std::get_if<std::string>(&identities[i])) {
       const bool named = std::find(paths.begin(), paths.end(), files.files[i]) != paths.end();
-      problems::require(!named, files.files[i].string(), *why);
+      if (named) throw input_error(*why, files.files[i].string());
       found.unreadable.push_back(*why);
       continue;
     }

@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <cmath>
+#include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "harness/error_text.h"
 #include "harness/host.h"
-#include "harness/interrupt.h"
 #include "harness/judge.h"
 #include "harness/problem_id.h"
-#include "problems/error.h"
 #include "problems/problem_file.h"
 #include "results/text.h"
 #include "solvers/monitor.h"
@@ -127,9 +128,7 @@ void explain_death(const ChildOutcome& outcome, Record& record) {
 
 Record decoded(const json& message) {
   if (message.contains("input_error")) {
-    const std::string subject = message["subject"], text = message["input_error"];
-    const auto detail = text.starts_with(subject + ": ") ? subject.size() + 2 : 0;
-    throw problems::InputError(subject, text.substr(detail));
+    throw input_error(message["input_error"], message["subject"]);
   }
   if (message.contains("output_error")) {
     throw problems::OutputError("solution", std::string(message["output_error"]));
@@ -161,14 +160,14 @@ Job job_of(const Task& task) {
   return {
       .work = [task] { return work(task); },
       .limits = {.wall_s = task.hard_limit_s.value_or(default_hard_limit_s(task.stop.time_limit_s)),
-                 .memory_bytes = task.memory_limit_bytes,
-                 .core = {}}};
+                 .memory_bytes = task.memory_limit_bytes}};
 }
 
 Record record_of(const Task& task, const ChildOutcome& outcome) {
   const json message = json::parse(outcome.output, nullptr, false);
   Record record = blank_record(task);
   if (message.is_discarded()) {
+    record.started_at = utc_now(outcome.wall_s);
     explain_death(outcome, record);
   } else {
     record = decoded(message);

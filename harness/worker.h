@@ -19,9 +19,9 @@ struct Task {
   solvers::Solver solver;
   solvers::Stop stop{};
   std::uint64_t memory_limit_bytes = 0;  ///< of the worker's address space; 0: none
-  std::optional<double> hard_limit_s;    ///< wall clock; default_hard_limit_s() unless given
+  std::optional<double> hard_limit_s{};  ///< wall clock; default_hard_limit_s() unless given
   int repetition = 0;
-  std::optional<std::filesystem::path> solution_file;  ///< where to write /solution
+  std::optional<std::filesystem::path> solution_file{};  ///< where to write /solution
 };
 
 /// When a worker that does not stop by itself is killed: twice the solver's time limit, because

@@ -26,8 +26,8 @@ void check_arrays(const CompressedArrays& arrays, Eigen::Index outer, Eigen::Ind
   require(begin.front() == 0, subject, what, "'s first position is ", begin.front(),
           ", expected 0");
   for (std::size_t k = 1; k < begin.size(); ++k) {
-    require(begin[k] >= begin[k - 1], subject, what, "'s position ", k, " is ", begin[k],
-            " after ", begin[k - 1], ", expected rising positions");
+    require(begin[k] >= begin[k - 1], subject, what, "'s position ", k, " is ", begin[k], " after ",
+            begin[k - 1], ", expected rising positions");
   }
   const auto entries = static_cast<std::size_t>(begin.back());
   require(arrays.inner.size() >= entries && arrays.value.size() >= entries, subject, what, " has ",
@@ -84,8 +84,8 @@ SparseMatrix from_triplets(Eigen::Index rows, Eigen::Index cols, std::span<const
   entries.reserve(value.size());
   for (std::size_t k = 0; k < value.size(); ++k) {
     require(row[k] >= 0 && row[k] < rows && column[k] >= 0 && column[k] < cols, subject, what,
-            "'s entry ", k, " is at (", row[k], ", ", column[k], "), expected inside ", rows,
-            " x ", cols);
+            "'s entry ", k, " is at (", row[k], ", ", column[k], "), expected inside ", rows, " x ",
+            cols);
     entries.emplace_back(row[k], column[k], value[k]);
   }
   return assemble(rows, cols, entries);

@@ -45,7 +45,8 @@ std::vector<Cone> read_cones(const hdf5::Reader& reader, const std::string& root
   const int dim = reader.integer(root + "/spacedim");
   const Eigen::VectorXd mu = reader.vector(root + "/vectors/mu");
   require(dim >= 1 && mu.size() * dim == rows, reader.subject(), root, "/vectors/mu has ",
-          mu.size(), " entries for spacedim ", dim, " and ", rows, " rows, expected rows / spacedim");
+          mu.size(), " entries for spacedim ", dim, " and ", rows,
+          " rows, expected rows / spacedim");
   std::vector<Cone> cones;
   for (const double friction : mu) cones.push_back(Cone::coulomb(dim, friction));
   return cones;

@@ -49,8 +49,7 @@ void write_geometry(hdf5::Writer& writer, const Geometry& geometry, const Proble
             geometry.bodies_of_cone.rows(), " rows, expected ", cones);
     writer.table("/geometry/bodies_of_cone", geometry.bodies_of_cone);
   }
-  const Eigen::Index bodies =
-      std::max(geometry.body_positions.rows(), geometry.body_radii.size());
+  const Eigen::Index bodies = std::max(geometry.body_positions.rows(), geometry.body_radii.size());
   write_table(writer, "/geometry/body_positions", geometry.body_positions, bodies, 3, subject);
   if (geometry.body_radii.size() > 0) {
     require(geometry.body_radii.size() == bodies, subject, "body_radii has ",

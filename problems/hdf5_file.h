@@ -108,6 +108,9 @@ class Writer {
     Image& operator=(const Image&) = delete;
     ~Image();
 
+    /// Bytes of the finished file, once HDF5 has closed it; 0 when they make no file.
+    std::size_t size() const;
+
     void* bytes = nullptr;
     std::size_t capacity = 0;
   };

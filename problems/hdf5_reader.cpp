@@ -96,8 +96,7 @@ Reader::Shape Reader::shape_of(const std::string& dataset, const Handle& handle,
   const Handle type(H5Dget_type(handle.get()), H5Tclose);
   const H5T_class_t found = type ? H5Tget_class(type.get()) : H5T_NO_CLASS;
   if (found != wanted) {
-    fail(dataset,
-         std::string("holds ") + class_name(found) + ", expected " + class_name(wanted));
+    fail(dataset, std::string("holds ") + class_name(found) + ", expected " + class_name(wanted));
   }
   const Handle space(H5Dget_space(handle.get()), H5Sclose);
   const int rank = space ? H5Sget_simple_extent_ndims(space.get()) : -1;
@@ -109,8 +108,8 @@ Reader::Shape Reader::shape_of(const std::string& dataset, const Handle& handle,
   const std::uintmax_t limit = kLargestPacking * file_bytes_ / 4;
   for (const hsize_t extent : shape.extent) {
     if (extent != 0 && shape.count > limit / extent) {
-      fail(dataset, "claims more entries than a file of " + std::to_string(file_bytes_) +
-                        " bytes can hold");
+      fail(dataset,
+           "claims more entries than a file of " + std::to_string(file_bytes_) + " bytes can hold");
     }
     shape.count *= extent;
   }
@@ -122,8 +121,8 @@ Eigen::VectorXd Reader::vector(const std::string& dataset) const {
   const Handle handle = open_dataset(dataset);
   const Shape shape = shape_of(dataset, handle, H5T_FLOAT);
   Eigen::VectorXd values(static_cast<Eigen::Index>(shape.count));
-  if (shape.count > 0 && H5Dread(handle.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                 values.data()) < 0) {
+  if (shape.count > 0 &&
+      H5Dread(handle.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     fail(dataset, "cannot be read, the file is damaged");
   }
   return values;
@@ -132,8 +131,8 @@ Eigen::VectorXd Reader::vector(const std::string& dataset) const {
 Eigen::VectorXd Reader::vector(const std::string& dataset, Eigen::Index size) const {
   Eigen::VectorXd values = vector(dataset);
   if (values.size() != size) {
-    fail(dataset, "has " + std::to_string(values.size()) + " entries, expected " +
-                      std::to_string(size));
+    fail(dataset,
+         "has " + std::to_string(values.size()) + " entries, expected " + std::to_string(size));
   }
   if (!values.allFinite()) fail(dataset, "holds a NaN or an infinity, expected finite numbers");
   return values;
@@ -143,8 +142,8 @@ void Reader::require_table(const std::string& dataset, const Shape& shape, Eigen
                            Eigen::Index cols) const {
   const auto wanted_rows = static_cast<hsize_t>(rows), wanted_cols = static_cast<hsize_t>(cols);
   if (shape.extent == std::vector<hsize_t>{wanted_rows, wanted_cols}) return;
-  fail(dataset, "has another shape, expected " + std::to_string(rows) + " x " +
-                    std::to_string(cols));
+  fail(dataset,
+       "has another shape, expected " + std::to_string(rows) + " x " + std::to_string(cols));
 }
 
 Geometry::Table Reader::table(const std::string& dataset, Eigen::Index rows,
@@ -152,8 +151,8 @@ Geometry::Table Reader::table(const std::string& dataset, Eigen::Index rows,
   const Handle handle = open_dataset(dataset);
   require_table(dataset, shape_of(dataset, handle, H5T_FLOAT), rows, cols);
   Geometry::Table values(rows, cols);
-  if (values.size() > 0 && H5Dread(handle.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                   values.data()) < 0) {
+  if (values.size() > 0 &&
+      H5Dread(handle.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     fail(dataset, "cannot be read, the file is damaged");
   }
   if (!values.allFinite()) fail(dataset, "holds a NaN or an infinity, expected finite numbers");
@@ -164,8 +163,8 @@ std::vector<int> Reader::integers(const std::string& dataset) const {
   const Handle handle = open_dataset(dataset);
   const Shape shape = shape_of(dataset, handle, H5T_INTEGER);
   std::vector<int> values(shape.count);
-  if (!values.empty() && H5Dread(handle.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT,
-                                 values.data()) < 0) {
+  if (!values.empty() &&
+      H5Dread(handle.get(), H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     fail(dataset, "cannot be read, the file is damaged");
   }
   return values;
@@ -190,9 +189,9 @@ bool Reader::has_attribute(const std::string& object, const std::string& attribu
 
 Handle Reader::open_attribute(const std::string& object, const std::string& attribute) const {
   if (!has_attribute(object, attribute)) fail(object, "lacks the attribute " + attribute);
-  Handle handle(H5Aopen_by_name(file_.get(), object.c_str(), attribute.c_str(), H5P_DEFAULT,
-                                H5P_DEFAULT),
-                H5Aclose);
+  Handle handle(
+      H5Aopen_by_name(file_.get(), object.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
   if (!handle) fail(object, "has an unreadable attribute " + attribute);
   return handle;
 }
@@ -233,8 +232,8 @@ std::vector<std::int64_t> Reader::whole_numbers(const std::string& object,
   if (!type || H5Tget_class(type.get()) != H5T_INTEGER || !space ||
       H5Sget_simple_extent_npoints(space.get()) != static_cast<hssize_t>(size) ||
       H5Aread(handle.get(), H5T_NATIVE_INT64, values.data()) < 0) {
-    fail(object, "has an unreadable attribute " + attribute + ", expected " +
-                     std::to_string(size) + " integer(s)");
+    fail(object, "has an unreadable attribute " + attribute + ", expected " + std::to_string(size) +
+                     " integer(s)");
   }
   return values;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 
 #include "problems/atomic_file.h"
 #include "problems/error.h"
@@ -9,8 +10,8 @@
 namespace conebench::problems::hdf5 {
 namespace {
 
-constexpr hsize_t kLargestChunk = 1 << 16;     // entries of the first dimension
-constexpr std::size_t kMemoryStep = 1 << 20;   // bytes
+constexpr hsize_t kLargestChunk = 1 << 16;    // entries of the first dimension
+constexpr std::size_t kMemoryStep = 1 << 20;  // bytes
 constexpr unsigned kCompressionLevel = 6;
 
 // HDF5's memory for the file, through its callbacks: kept when HDF5 closes the file, because only
@@ -61,7 +62,8 @@ Handle missing_folders() {
 
 Writer::Image::~Image() { std::free(bytes); }
 
-Writer::Writer(const std::filesystem::path& path) : path_(path), image_(std::make_unique<Image>()), file_(new_file(*image_)) {
+Writer::Writer(const std::filesystem::path& path)
+    : path_(path), image_(std::make_unique<Image>()), file_(new_file(*image_)) {
   require_ok(static_cast<bool>(file_), "/");
 }
 
@@ -192,13 +194,22 @@ void Writer::attribute(const std::string& object, const std::string& name,
                   H5T_NATIVE_INT64, values.data());
 }
 
+// Closing gives back space that was reserved, so the true size is the end-of-file address in the
+// superblock: 8 bytes at 28 in versions 2 and 3 of the format specification.
+std::size_t Writer::Image::size() const {
+  constexpr std::size_t kVersionAt = 8, kEndAt = 28;
+  std::uint64_t end = 0;
+  if (capacity < kEndAt + sizeof end) return 0;
+  const auto version = static_cast<const unsigned char*>(bytes)[kVersionAt];
+  std::memcpy(&end, static_cast<const std::byte*>(bytes) + kEndAt, sizeof end);
+  return (version == 2 || version == 3) && end <= capacity ? end : 0;
+}
+
 void Writer::save() {
-  require_ok(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0, "/");
-  const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);  // the size only
-  require_ok(size > 0 && file_.close() >= 0, "/");
-  const auto length = static_cast<std::size_t>(size);
-  require_ok(length <= image_->capacity, "/");
-  write_file_atomically(path_, {static_cast<const std::byte*>(image_->bytes), length});
+  require_ok(H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) >= 0 && file_.close() >= 0, "/");
+  const std::size_t size = image_->size();
+  require_ok(size > 0, "/");
+  write_file_atomically(path_, {static_cast<const std::byte*>(image_->bytes), size});
 }
 
 }  // namespace conebench::problems::hdf5

@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kHdf5Signature = "\x89HDF\r\n\x1a\n";
 constexpr std::streamsize kBytesLookedAt = 256;
+constexpr const char* kIndexName = "collection.json";
 
 std::string first_bytes(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
@@ -45,12 +46,13 @@ bool belongs_in_list(const fs::path& path) {
 
 void add_folder(const fs::path& folder, FoundProblems& found) {
   std::vector<fs::path> files;
-  for (auto it = fs::recursive_directory_iterator(folder,
-                                                  fs::directory_options::skip_permission_denied);
+  for (auto it =
+           fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied);
        it != fs::recursive_directory_iterator(); ++it) {
     const bool hidden = it->path().filename().string().starts_with('.');
     if (hidden && it->is_directory()) it.disable_recursion_pending();
-    if (!hidden && it->is_regular_file()) files.push_back(it->path());
+    const bool index = it->path().filename() == kIndexName;
+    if (!hidden && !index && it->is_regular_file()) files.push_back(it->path());
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {

@@ -20,8 +20,9 @@ FileFormat file_format(const std::filesystem::path& path);
 /// FCLIB local or global HDF5, Siconos .dat. Throws InputError naming file and dataset.
 ProblemFile load_problem(const std::filesystem::path& path);
 
-/// Files in the order given, folders (recursive) in sorted order, each file once. Hidden files are
-/// passed over. A damaged HDF5 file is among them, so that loading it says what is wrong.
+/// Files in the order given, folders (recursive) in sorted order, each file once. Hidden files
+/// and collection.json are passed over. A damaged HDF5 file is among them, so that loading it says
+/// what is wrong.
 struct FoundProblems {
   std::vector<std::filesystem::path> files;
   int skipped = 0;  ///< files in folders that are no problem file

@@ -94,7 +94,7 @@ SparseMatrix read_matrix(const hdf5::Reader& reader, const std::string& group, E
   reader.fail(group, "has the format '" + format + "', expected 'csr' or 'csc'");
 }
 
-std::vector<double> column_of(std::span<const Cone> cones, double Cone::* member) {
+std::vector<double> column_of(std::span<const Cone> cones, double Cone::*member) {
   std::vector<double> column;
   for (const Cone& cone : cones) column.push_back(cone.*member);
   return column;
@@ -189,11 +189,11 @@ ProblemFile read_problem_file(const std::filesystem::path& path) {
   const hdf5::Reader reader(path);
   if (!reader.has("/problem")) reader.fail("/problem", "is missing");
   Metadata metadata = read_root(reader);
-  ProblemFile file{make_problem(reader.subject(),
-                                [&] { return read_problem(reader, std::move(metadata)); }),
-                   {},
-                   {},
-                   {}};
+  ProblemFile file{
+      make_problem(reader.subject(), [&] { return read_problem(reader, std::move(metadata)); }),
+      {},
+      {},
+      {}};
   check_hash(reader, file.problem);
   file.geometry = read_geometry(reader, file.problem.cone_count());
   if (reader.has("/guess/r")) file.guess = reader.vector("/guess/r", file.problem.rows());

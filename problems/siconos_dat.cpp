@@ -39,8 +39,8 @@ Problem read_global(TextReader& in, SparseMatrix M, int dim, int contacts, Metad
   if (M.rows() != M.cols()) in.fail("M is not square");
   const SparseMatrix H = read_siconos_matrix(in, "H");
   if (H.rows() != M.rows() || H.cols() != dim * contacts) {
-    in.fail("H is " + std::to_string(H.rows()) + " x " + std::to_string(H.cols()) +
-            ", expected " + std::to_string(M.rows()) + " x " + std::to_string(dim * contacts));
+    in.fail("H is " + std::to_string(H.rows()) + " x " + std::to_string(H.cols()) + ", expected " +
+            std::to_string(M.rows()) + " x " + std::to_string(dim * contacts));
   }
   Eigen::VectorXd f = in.numbers("q", static_cast<int>(M.rows()));
   Eigen::VectorXd w = in.numbers("b", static_cast<int>(H.cols()));

@@ -1,7 +1,6 @@
 #include "problems/siconos_matrix.h"
 
 #include <cmath>
-#include <cmath>
 #include <limits>
 
 namespace conebench::problems {
@@ -60,8 +59,7 @@ SparseMatrix read_blocks(TextReader& in, const std::string& name, int rows, int 
   const int positions = in.integer(name + "'s positions", 1, block_rows + 1);
   in.integer(name + "'s filled blocks", blocks, blocks);
   const std::vector<int> begin = in.integers(name + "'s positions", positions, 0, blocks);
-  const std::vector<int> inner =
-      in.integers(name + "'s block columns", blocks, 0, block_cols - 1);
+  const std::vector<int> inner = in.integers(name + "'s block columns", blocks, 0, block_cols - 1);
   if (begin.front() != 0 || begin.back() != blocks) in.fail(name + " has dangling blocks");
   std::vector<Triplet> entries;
   for (std::size_t i = 0; i + 1 < begin.size(); ++i) {

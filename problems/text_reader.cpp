@@ -24,6 +24,8 @@ TextReader::TextReader(const std::filesystem::path& path) : subject_(path.string
   require(in.is_open(), subject_, "cannot be opened for reading");
   text_.assign(std::istreambuf_iterator<char>(in), {});
   require(!in.bad(), subject_, "cannot be read");
+  require(text_.empty() || is_space(text_.back()), subject_,
+          "ends in the middle of a line, expected a whole file");
 }
 
 void TextReader::fail(const std::string& detail) const {

@@ -11,7 +11,8 @@
 namespace conebench::problems {
 
 /// Words of a text file, separated by white space, with line numbers for messages. The file is
-/// held in memory. Every failure is an InputError naming file and line.
+/// held in memory and must end with a line end, or it may have been cut. Every failure is an
+/// InputError naming file and line.
 class TextReader {
  public:
   explicit TextReader(const std::filesystem::path& path);

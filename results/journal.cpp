@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 #include <unordered_map>
 
 #include "problems/error.h"
@@ -18,12 +20,24 @@ namespace {
 
 using problems::OutputError;
 
+constexpr int kLockAttempts = 20;
+constexpr std::chrono::milliseconds kLockPause{25};
+
 std::string reason() { return std::generic_category().message(errno); }
 
 bool ends_torn(int fd) {
   const off_t size = ::lseek(fd, 0, SEEK_END);
   char last = '\n';
   return size > 0 && ::pread(fd, &last, 1, size - 1) == 1 && last != '\n';
+}
+
+// A campaign that was just killed may leave a worker for an instant, and with it the lock.
+bool lock(int fd) {
+  for (int attempt = 0; attempt < kLockAttempts; ++attempt) {
+    if (::flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(kLockPause);
+  }
+  return false;
 }
 
 }  // namespace
@@ -63,9 +77,7 @@ Journal::Journal(const std::filesystem::path& path) : path_(path) {
   fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (fd_ < 0) throw OutputError(path.string(), reason());
   try {
-    if (::flock(fd_, LOCK_EX | LOCK_NB) != 0) {
-      throw OutputError(path.string(), "another campaign is writing to it");
-    }
+    if (!lock(fd_)) throw OutputError(path.string(), "another campaign is writing to it");
     if (ends_torn(fd_)) write_line("\n");
   } catch (...) {
     ::close(fd_);

@@ -12,10 +12,10 @@ namespace conebench::results {
 
 /// What was solved.
 struct ProblemId {
-  std::string name;            ///< e.g. "column-dry_000420"
-  std::string content_sha256;  ///< the same for twins in two formats
-  std::string path;
-  std::string family;  ///< "engine/scene"; what a file does not say is left out
+  std::string name{};            ///< e.g. "column-dry_000420"
+  std::string content_sha256{};  ///< the same for twins in two formats
+  std::string path{};
+  std::string family{};  ///< "engine/scene"; what a file does not say is left out
   int cones = 0;
 };
 

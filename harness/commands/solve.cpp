@@ -49,8 +49,7 @@ int solve(const SolveOptions& options) {
             .solver = solvers::make_solver(options.solver),
             .stop = options.settings.checked_stop(),
             .memory_limit_bytes = options.settings.memory_limit_bytes(),
-            .hard_limit_s = options.settings.hard_limit_s(),
-            .solution_file = {}};
+            .hard_limit_s = options.settings.hard_limit_s()};
   if (!options.solution_file.empty()) task.solution_file = options.solution_file;
   const auto record = run_task(task);
   if (!record) return kInterruptedExit;

@@ -1,0 +1,144 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+
+#include "harness/campaign.h"
+#include "harness/command_line.h"
+#include "harness/commands/commands.h"
+#include "harness/demo_files.h"
+#include "harness/interrupt.h"
+#include "harness/summary.h"
+#include "problems/error.h"
+#include "results/journal.h"
+#include "results/report.h"
+
+namespace conebench::harness {
+namespace {
+
+using Files = std::vector<std::filesystem::path>;
+
+// What the demo compares; one line a variant.
+const std::vector<std::string>& demo_variants() {
+  static const std::vector<std::string> variants = {
+      "gs", "gs[local=projection]", "gs[omega=0.8]", "gs[omega=1.3]", "spg", "spg[step=long]",
+  };
+  return variants;
+}
+
+struct SceneExport {
+  const char* scene;
+  int steps, first, stride;
+};
+
+// The walls of both columns go at step 100: some steps of settling, most of collapse.
+constexpr std::array<SceneExport, 2> kScenes = {
+    {{"column-dry", 300, 20, 20}, {"column-cohesive", 300, 20, 20}}};
+constexpr auto kSceneSolver = "gs";
+constexpr double kSceneLimit_s = 60.0;
+
+constexpr double kTolerance = 1e-8, kTaskLimit_s = 0.5, kTaskHardLimit_s = 10.0;
+constexpr std::uint64_t kTaskMemory = 2ULL << 30;
+
+int demo_jobs() { return std::min(2, static_cast<int>(allowed_cores().size())); }
+
+std::string joined(const Files& files) {
+  std::string lines;
+  for (const auto& file : files) lines += file.string() + "\n";
+  return lines;
+}
+
+void append_lines(const std::string& lines, Files& files) {
+  for (std::size_t start = 0, end; start < lines.size(); start = end + 1) {
+    end = lines.find('\n', start);
+    files.emplace_back(lines.substr(start, end - start));
+  }
+}
+
+// Each scene in a process of its own, both at once where there are two cores. False: interrupted.
+bool simulate_scenes(const std::filesystem::path& folder, Files& files) {
+  const auto make = [&](std::size_t i) -> Job {
+    const SceneExport& s = kScenes[i];
+    return {.work =
+                [&s, folder] {
+                  return joined(
+                      export_scene(s.scene, s.steps, s.first, s.stride, kSceneSolver, folder));
+                },
+            .limits = {.wall_s = kSceneLimit_s, .memory_bytes = 0}};
+  };
+  const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
+    if (outcome.output.empty()) {
+      throw problems::OutputError(
+          kScenes[i].scene, outcome.timed_out ? "the simulation is too slow" : outcome.errors);
+    }
+    append_lines(outcome.output, files);
+  };
+  return run_pool(kScenes.size(), demo_jobs(), {.make = make, .done = done, .tick = {}});
+}
+
+// A demo starts anew; the results of anything else are not touched.
+void clear_results(const std::filesystem::path& results_dir) {
+  const auto journal = results::journal_path(results_dir);
+  if (!std::filesystem::exists(journal)) return;
+  problems::require(campaign_command(results_dir).starts_with("conebench demo"),
+                    results_dir.string(), "holds the results of another campaign");
+  std::filesystem::remove(journal);
+}
+
+CampaignOptions campaign_options(const std::filesystem::path& results_dir) {
+  return {.stop = {.tol = kTolerance, .time_limit_s = kTaskLimit_s},
+          .memory_limit_bytes = kTaskMemory,
+          .hard_limit_s = kTaskHardLimit_s,
+          .jobs = demo_jobs(),
+          .results_dir = results_dir,
+          .command = command_line(),
+          .show_progress = true};
+}
+
+int demo(const std::filesystem::path& folder, const std::filesystem::path& data) {
+  const auto problems_dir = folder / "problems", results_dir = folder / "results";
+  clear_results(results_dir);
+  fmt::print(stderr, "1/4  simulating column-dry and column-cohesive\n");
+  Files files;
+  if (!simulate_scenes(problems_dir, files)) return kInterruptedExit;
+  fmt::print(stderr, "     {} steps exported to {}\n", files.size(), problems_dir.string());
+
+  fmt::print(stderr, "2/4  making small problems with known solutions\n");
+  const Files made = write_small_problems(problems_dir);
+  files.insert(files.end(), made.begin(), made.end());
+  if (!data.empty() && std::filesystem::is_directory(data)) files.push_back(data);
+  const FoundSources found = find_sources(files, demo_jobs());
+  if (found.interrupted) return kInterruptedExit;
+
+  const auto solvers = make_all_solvers(demo_variants());
+  fmt::print(stderr, "3/4  solving to eta <= {:.0e}, {} solvers, on ", kTolerance, solvers.size());
+  tell(found);
+  const CampaignSummary summary =
+      run_campaign(campaign_options(results_dir), found.problems, solvers);
+  const int code = tell(summary);
+  if (summary.interrupted) return code;
+
+  fmt::print(stderr, "4/4  report\n");
+  const auto records = load_records(results_dir);
+  const auto written = results::write_report(folder, records, command_line(), {"md", "csv"});
+  print_rankings(records);
+  for (const auto& file : written) fmt::print("{}\n", file.string());
+  return code;
+}
+
+}  // namespace
+
+void add_demo(CLI::App& app, int& exit_code) {
+  struct Options {
+    std::filesystem::path folder = "demo-results", data;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* verb = app.add_subcommand(
+      "demo", "Simulate, export, solve with every kind of solver, report; less than 3 minutes");
+  verb->add_option("-o,--output", options->folder, "Folder to write to")->capture_default_str();
+  verb->add_option("--data", options->data, "More problem files, used where the folder exists");
+  verb->callback([options, &exit_code] { exit_code = demo(options->folder, options->data); });
+}
+
+}  // namespace conebench::harness

@@ -1,0 +1,23 @@
+#include "harness/step_solver.h"
+
+#include "problems/error.h"
+#include "solvers/registry.h"
+
+namespace conebench::harness {
+
+dem::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s) {
+  const solvers::Stop stop{.tol = tol, .time_limit_s = time_limit_s};
+  stop.check();
+  return [solver = solvers::make_solver(variant), stop](const problems::Problem& standard,
+                                                        const Eigen::VectorXd& guess) {
+    if (const auto reason = solver.refuses(standard)) {
+      throw problems::InputError(standard.name(), solver.name + " cannot solve it: " + *reason);
+    }
+    const solvers::Result result = solver.solve(standard, {.stop = stop, .guess = guess});
+    return dem::StepAnswer{result.r, result.status == solvers::Status::kConverged,
+                           std::string(solvers::to_string(result.status)), result.iterations,
+                           result.setup_s + result.solve_s};
+  };
+}
+
+}  // namespace conebench::harness

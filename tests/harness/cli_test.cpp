@@ -1,0 +1,157 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "harness/small_problems.h"
+#include "problems/problem_file.h"
+
+namespace conebench::harness {
+namespace {
+
+using testing::HasSubstr;
+
+struct Ran {
+  int code = -1;
+  std::string out, err;
+  long error_lines() const { return std::count(err.begin(), err.end(), '\n'); }
+};
+
+std::string content(const std::filesystem::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+class CommandLineTest : public testing::Test {
+ protected:
+  CommandLineTest()
+      : folder_(std::filesystem::path(testing::TempDir()) /
+                ("conebench-cli-" + std::to_string(::getpid()))) {
+    std::filesystem::create_directories(folder_ / "problems");
+    for (const std::size_t i : {1u, 5u}) {
+      const NamedRecipe named = small_recipes()[i];
+      problems::write_problem_file(problems() / (named.name + ".h5"),
+                                   {make_named(named), {}, {}, {}});
+    }
+  }
+  ~CommandLineTest() override { std::filesystem::remove_all(folder_); }
+
+  std::filesystem::path problems() const { return folder_ / "problems"; }
+  std::string problem() const { return (problems() / "made-3d.h5").string(); }
+
+  /// Runs the built program in a shell; `before` may set limits.
+  Ran conebench(const std::string& arguments, const std::string& before = "") const {
+    const std::string command = before + " cd '" + folder_.string() +
+                                "' && " CONEBENCH_PROGRAM " " + arguments + " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), content(folder_ / "out.txt"), content(folder_ / "err.txt")};
+  }
+
+  void expect_usage_error(const std::string& arguments, const std::string& what) const {
+    const Ran ran = conebench(arguments);
+    EXPECT_EQ(ran.code, 2) << arguments << "\n" << ran.err;
+    EXPECT_EQ(ran.error_lines(), 1) << ran.err;
+    EXPECT_THAT(ran.err, HasSubstr(what));
+    EXPECT_EQ(ran.out, "");
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(CommandLineTest, HelpNamesEveryVerbAndTheExitCodes) {
+  const Ran ran = conebench("--help");
+  EXPECT_EQ(ran.code, 0);
+  for (const char* verb : {"demo", "scene", "simulate", "export", "problem", "solver", "solve",
+                           "run", "report", "doctor", "Exit codes"}) {
+    EXPECT_THAT(ran.out, HasSubstr(verb));
+  }
+  EXPECT_EQ(conebench("--version").code, 0);
+}
+
+TEST_F(CommandLineTest, BadUseIsOneLineAndExitCodeTwo) {
+  expect_usage_error("slove x", "did you mean 'solve'?");
+  expect_usage_error("solver lits", "did you mean 'list'?");
+  expect_usage_error("", "command");
+  expect_usage_error("solve no-such-file.h5", "no-such-file.h5");
+  expect_usage_error("solve " + problem() + " -s gsx", "gsx");
+  expect_usage_error("solve " + problem() + " -s 'gs[omegaa=1]'", "omegaa");
+  expect_usage_error("solve " + problem() + " --tolerance 1e-3", "--tolerance");
+  expect_usage_error("solve " + problem() + " --tol -1", "tol");
+  expect_usage_error("solve " + problem() + " --time-limit 3parsecs", "known units");
+  expect_usage_error("run -p no-such-folder -s gs", "no-such-folder");
+  expect_usage_error("report no-such-results", "no-such-results");
+}
+
+TEST_F(CommandLineTest, AFileThatIsNoProblemIsBadInput) {
+  std::ofstream(folder_ / "text.h5") << "hello\n";
+  expect_usage_error("solve text.h5", "text.h5");
+}
+
+TEST_F(CommandLineTest, SolvePrintsOneJsonObject) {
+  const Ran ran = conebench("solve " + problem() + " -s gs --json --tol 1e-6 -o solution.h5");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const auto json = nlohmann::json::parse(ran.out);
+  for (const char* key :
+       {"status", "solver", "eta", "fclib_residual", "iterations", "solve_s", "problem"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+  EXPECT_EQ(json["status"], "converged");
+  EXPECT_EQ(json["problem"], "made-3d");
+  EXPECT_LE(json["eta"].get<double>(), 1e-6);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "solution.h5"));
+}
+
+TEST_F(CommandLineTest, SolveExitsOneUnlessTheVerifiedToleranceIsMet) {
+  const Ran ran = conebench("solve " + problem() + " --tol 1e-300 --time-limit 10ms --json");
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_NE(nlohmann::json::parse(ran.out)["status"], "converged");
+}
+
+TEST_F(CommandLineTest, AnUnwritableSolutionIsExitCodeThree) {
+  const Ran ran = conebench("solve " + problem() + " -o /proc/no-such-place/solution.h5");
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_EQ(ran.error_lines(), 1) << ran.err;
+}
+
+TEST_F(CommandLineTest, RunsACampaignAndReportsIt) {
+  const Ran ran = conebench("run -p problems -s gs spg --tol 1e-6 --time-limit 2s -o results");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("`gs`"));
+  const Ran report = conebench("report results -o report");
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_THAT(content(folder_ / "report" / "report.md"), HasSubstr("made-cohesive"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "profile.svg"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "results.csv"));
+}
+
+TEST_F(CommandLineTest, AFullDiskIsExitCodeThreeWithAMessage) {
+  const Ran ran = conebench("run -p problems -s gs spg --time-limit 1s -o results", "ulimit -f 4;");
+  EXPECT_EQ(ran.code, 3) << ran.err;
+  EXPECT_THAT(ran.err, HasSubstr("journal.jsonl: File too large"));
+}
+
+TEST_F(CommandLineTest, SolversAreListedShownAndChecked) {
+  EXPECT_THAT(conebench("solver list").out, HasSubstr("spg"));
+  EXPECT_TRUE(nlohmann::json::parse(conebench("solver list --json").out).is_array());
+  EXPECT_THAT(conebench("solver show gs").out, HasSubstr("omega"));
+  expect_usage_error("solver show gx", "known: gs");
+  const Ran check = conebench("solver check gs problems");
+  EXPECT_EQ(check.code, 0) << check.out;
+  EXPECT_THAT(check.out, HasSubstr("pass  made-3d"));
+}
+
+TEST_F(CommandLineTest, TheDoctorSpeaksJson) {
+  const auto json = nlohmann::json::parse(conebench("doctor --json").out);
+  EXPECT_TRUE(json.contains("compiler"));
+}
+
+}  // namespace
+}  // namespace conebench::harness
