@@ -1,6 +1,5 @@
 #include "solvers/gs.h"
 
-#include <Eigen/Eigenvalues>
 #include <tuple>
 
 #include "problems/residual.h"
@@ -162,20 +161,19 @@ class Sweeper {
 
   void prepare(int i) {
     if (!settings_.exact) return;
-    Eigen::MatrixXd B = coupling_.diagonal_block(i);
-    B = 0.5 * (B + B.transpose()).eval();
+    const Eigen::MatrixXd W = coupling_.diagonal_block(i);
     const double lambda = problem_.mobility()(i);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(B, Eigen::EigenvaluesOnly);
-    if (eigen.eigenvalues()(0) < settings_.regularization * lambda) {
-      B.diagonal().array() += settings_.regularization * lambda;
-    }
+    const Cone& cone = problem_.cones()[static_cast<std::size_t>(i)];
     with_dimension(i, [&]<int D>() {
       auto& locals = std::get<std::vector<LocalData<D>>>(locals_);
       slot_.push_back(locals.size());
-      locals.emplace_back();
-      const Cone& cone = problem_.cones()[static_cast<std::size_t>(i)];
-      locals.back().B = B;
-      locals.back().exact.set(locals.back().B, cone.mu, cone.theta);
+      LocalData<D>& local = locals.emplace_back();
+      local.B = 0.5 * (W + W.transpose());
+      local.exact.set(local.B, lambda, cone.mu, cone.theta);
+      if (local.exact.least_eigenvalue() < settings_.regularization * lambda) {
+        local.B.diagonal().array() += settings_.regularization * lambda;
+        local.exact.set(local.B, lambda, cone.mu, cone.theta);
+      }
     });
   }
 

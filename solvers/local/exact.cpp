@@ -7,14 +7,39 @@
 namespace conebench::solvers {
 namespace {
 
-// Eigenvalues of S below this share of |W|_2 count as zero: above the rounding of S (a few eps), and
-// below the smallest eigenvalue of a W of condition 1e14, since that of S is no smaller.
+// Eigenvalues of S below this share of |W|_2 count as zero: above the rounding of S (a few eps),
+// and below the smallest eigenvalue of a W of condition 1e14, since that of S is no smaller.
 constexpr double kZeroEigenvalue = 4e-15;
 constexpr double kZeroDiagonal = 1e-16;
 // q counts as in range(W) when its part in null(W) is below this share of it.
 constexpr double kInRange = 1e-14;
 // Points of the scan for the valley of psi when S is singular.
 constexpr int kScanPoints = 400;
+
+// S = Q diag(s) Q^T, s increasing. Dimensions without a closed form share one instantiation.
+template <class Matrix, class Vector>
+void diagonalise(const Matrix& S, Vector& s, Matrix& Q) {
+  if constexpr (Matrix::RowsAtCompileTime == 0) {
+    return;
+  } else if constexpr (Matrix::RowsAtCompileTime == 1) {
+    s(0) = S(0, 0);
+    Q(0, 0) = 1.0;
+  } else if constexpr (Matrix::RowsAtCompileTime == 2) {
+    Eigen::SelfAdjointEigenSolver<Matrix> eigen;
+    eigen.computeDirect(S);
+    s = eigen.eigenvalues();
+    Q = eigen.eigenvectors();
+  } else {
+    if (S.rows() == 0) {
+      s.resize(0);
+      Q.resize(0, 0);
+      return;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S);
+    s = eigen.eigenvalues();
+    Q = eigen.eigenvectors();
+  }
+}
 
 }  // namespace
 
@@ -27,32 +52,27 @@ struct ExactLocal<D>::Reduced {
 };
 
 template <int D>
-void ExactLocal<D>::set(const Matrix& W, double mu, double theta) {
+void ExactLocal<D>::set(const Matrix& W, double lambda, double mu, double theta) {
   mu_ = mu;
   theta_ = theta;
   const Eigen::Index tangents = W.rows() - 1;
-  const double size =
-      Eigen::SelfAdjointEigenSolver<Matrix>(W, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-  Wnn_ = W(0, 0) > kZeroDiagonal * size ? W(0, 0) : 0.0;
-  w_ = Tangent::Zero(tangents);
-  s_ = Tangent::Zero(tangents);
-  Q_ = TangentMatrix::Identity(tangents, tangents);
-  if (tangents == 0) return;
+  Wnn_ = W(0, 0) > kZeroDiagonal * lambda ? W(0, 0) : 0.0;
   TangentMatrix S = W.bottomRightCorner(tangents, tangents);
-  Tangent w = Tangent::Zero(tangents);
+  w_ = Tangent::Zero(tangents);
   if (Wnn_ > 0.0) {
-    w = W.col(0).tail(tangents) / Wnn_;
-    S -= w * W.col(0).tail(tangents).transpose();
+    w_ = W.col(0).tail(tangents) / Wnn_;
+    S -= w_ * W.col(0).tail(tangents).transpose();
   }
-  if constexpr (D != 1) {
-    const Eigen::SelfAdjointEigenSolver<TangentMatrix> eigen(S);
-    Q_ = eigen.eigenvectors();
-    for (Eigen::Index k = 0; k < tangents; ++k) {
-      const double value = eigen.eigenvalues()(k);
-      s_(k) = value > kZeroEigenvalue * size ? value : 0.0;
-    }
-  }
-  w_ = Q_.transpose() * w;
+  diagonalise(S, s_, Q_);
+  for (double& value : s_) value = value > kZeroEigenvalue * lambda ? value : 0.0;
+  w_ = (Q_.transpose() * w_).eval();
+}
+
+// W = L diag(W_nn, S) L^T with |L^-1|^2 <= 2 (1 + |w|^2).
+template <int D>
+double ExactLocal<D>::least_eigenvalue() const {
+  if (s_.size() == 0) return Wnn_;
+  return std::min(Wnn_, s_.minCoeff()) / (2.0 * (1.0 + w_.squaredNorm()));
 }
 
 // min over y of |r_t| - mu r_n, where the components y of r_t in null(S) are free and move r_n by

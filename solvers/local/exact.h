@@ -32,8 +32,9 @@ enum class LocalCase {
 /// (-w.y, y), S y = 0, so the best stick candidate has a closed form; for sliding, psi may start
 /// positive, and its minimum over a decides whether there is a root.
 ///
-/// set() costs one eigendecomposition of size d - 1; solve() allocates nothing for fixed D.
-/// D is the dimension, or Eigen::Dynamic. Instantiated for 1, 2, 3, 6 and Eigen::Dynamic.
+/// set() costs one eigendecomposition of size d - 1 (closed form for d <= 3); solve() allocates
+/// nothing for fixed D. D is the dimension, or Eigen::Dynamic. Instantiated for 1, 2, 3, 6 and
+/// Eigen::Dynamic.
 template <int D>
 class ExactLocal {
  public:
@@ -43,8 +44,11 @@ class ExactLocal {
   using Tangent = Eigen::Matrix<double, kTangents, 1>;
   using TangentMatrix = Eigen::Matrix<double, kTangents, kTangents>;
 
-  /// `W` symmetric; the cone's law stays fixed until the next call.
-  void set(const Matrix& W, double mu, double theta);
+  /// `W` symmetric with spectral norm `lambda`; both and the law stay fixed until the next call.
+  void set(const Matrix& W, double lambda, double mu, double theta);
+
+  /// A lower bound of the order of W's smallest eigenvalue; 0 where W counts as singular.
+  double least_eigenvalue() const;
 
   /// Writes r. `slide_rate` is a: a guess on entry (<= 0: none), the answer of a slide on exit.
   LocalCase solve(const Vector& q, Vector& r, double& slide_rate) const;

@@ -115,7 +115,7 @@ TEST(Worker, AHangIsKilledWithEverythingThatItStarted) {
       std::ofstream(pid_file) << ::getpid() << std::flush;
       for (;;) ::pause();
     }
-    for (volatile int i = 0;; i = i + 1) {
+    for (volatile unsigned i = 0;; i = i + 1) {
     }
   };
   const auto record = run_task({.problem = {},

@@ -21,7 +21,7 @@ Tally solve_random_blocks(int d, Conditioning kind, double mu, double theta, int
     const Eigen::MatrixXd W = random_block(random, d, kind);
     const Eigen::VectorXd q = random_rate(random, W, kind);
     ExactLocal<D> local;
-    local.set(W, mu, theta);
+    local.set(W, largest_eigenvalue(W), mu, theta);
     typename ExactLocal<D>::Vector r = q;
     double a = 0.0;
     if (local.solve(q, r, a) == LocalCase::kNoSolution) {
@@ -79,7 +79,7 @@ TEST(ExactLocal, SolvesSingularBlocksOrIsProvedRightThatItCannot) {
 // 2 kg block on a slope, one step of 0.01 s from rest: the closed form of a first course.
 Eigen::Vector3d block_on_slope(double slope_rad, double mu, LocalCase& found) {
   ExactLocal<3> local;
-  local.set(Eigen::Matrix3d::Identity() / 2.0, mu, mu);
+  local.set(Eigen::Matrix3d::Identity() / 2.0, 0.5, mu, mu);
   const double kick = 9.81 * 0.01;
   Eigen::Vector3d r = Eigen::Vector3d::Zero();
   double a = 0.0;
@@ -101,7 +101,7 @@ TEST(ExactLocal, BlockSticksBelowTheFrictionAngleAndSlidesAbove) {
 
 TEST(ExactLocal, OpeningContactCarriesNothing) {
   ExactLocal<3> local;
-  local.set(Eigen::Matrix3d::Identity(), 0.3, 0.3);
+  local.set(Eigen::Matrix3d::Identity(), 1.0, 0.3, 0.3);
   Eigen::Vector3d r(1.0, 2.0, 3.0);
   double a = 0.0;
   EXPECT_EQ(local.solve({1e-12, -5.0, 2.0}, r, a), LocalCase::kOpen);
@@ -111,7 +111,7 @@ TEST(ExactLocal, OpeningContactCarriesNothing) {
 TEST(ExactLocal, FrictionlessContactTakesTheNormalOnly) {
   for (const double wn : {0.5, 4.0}) {
     ExactLocal<1> local;
-    local.set(Eigen::Matrix<double, 1, 1>(wn), 0.0, 0.0);
+    local.set(Eigen::Matrix<double, 1, 1>(wn), wn, 0.0, 0.0);
     Eigen::Matrix<double, 1, 1> r;
     double a = 0.0;
     local.solve(Eigen::Matrix<double, 1, 1>(-3.0), r, a);

@@ -120,9 +120,15 @@ bool no_slide(const Eigen::MatrixXd& W, const Eigen::VectorXd& q, double mu) {
 
 }  // namespace
 
+double largest_eigenvalue(const Eigen::MatrixXd& W) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(W, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
 double backward_residual(const Eigen::MatrixXd& W, const Eigen::VectorXd& q, double mu,
                          double theta, const Eigen::VectorXd& r) {
-  const double lambda = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(W).eigenvalues().maxCoeff();
+  const double lambda = largest_eigenvalue(W);
   Eigen::VectorXd u = W * r + q;
   problems::add_de_saxce(theta, u);
   Eigen::VectorXd projected = r - u / lambda;

@@ -4,6 +4,9 @@
 
 namespace conebench::solvers {
 
+/// |W|_2 of a symmetric PSD matrix.
+double largest_eigenvalue(const Eigen::MatrixXd& W);
+
 /// lambda |r - P_K(r - u_hat / lambda)| / max(|q|, lambda |r|) with u = W r + q: the backward
 /// residual of a one-cone answer.
 double backward_residual(const Eigen::MatrixXd& W, const Eigen::VectorXd& q, double mu,
