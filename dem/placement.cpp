@@ -1,5 +1,6 @@
 #include "dem/placement.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -72,6 +73,21 @@ void add_stack(const Scene& scene, const Stack& stack, Spheres& spheres) {
     body.position_m = stack.base_m;
     body.position_m.z() += static_cast<double>(2 * i + 1) * stack.radius_m;
     body.material = stack.material;
+    add_sphere(scene, body, spheres);
+  }
+}
+
+void add_bed(const Scene& scene, const Bed& bed, Spheres& spheres) {
+  const double cell = 2.0 * bed.radius_m;
+  const int side = std::max(1, static_cast<int>(std::ceil(bed.width_m / cell - 1e-9)));
+  for (int k = 0; k < side * side; ++k) {
+    Body body;
+    body.radius_m = bed.radius_m;
+    body.position_m = bed.centre_m;
+    body.position_m.x() += (k % side - 0.5 * (side - 1)) * cell;
+    body.position_m.y() += (k / side - 0.5 * (side - 1)) * cell;
+    body.material = bed.material;
+    body.fixed = true;
     add_sphere(scene, body, spheres);
   }
 }
@@ -170,6 +186,7 @@ Spheres place_spheres(const Scene& scene, std::string_view subject) {
   for (const Body& body : scene.bodies) add_sphere(scene, body, spheres);
   for (const Column& column : scene.columns) add_column(scene, column, random, spheres);
   for (const Stack& stack : scene.stacks) add_stack(scene, stack, spheres);
+  for (const Bed& bed : scene.beds) add_bed(scene, bed, spheres);
   problems::require(spheres.dofs > 0, subject, "no body can move, expected at least one");
   CellList cells;
   if (scene.resolve) resolve_overlaps(scene, subject, cells, spheres);

@@ -10,7 +10,7 @@ namespace conebench::dem {
 /// Two things overlap when they do so by more than this share of the (smaller) radius.
 constexpr double kOverlapTolerance = 1e-6;
 
-/// The spheres of a scene at time 0: bodies in the order of the file, then columns, then stacks.
+/// The spheres of a scene at time 0: bodies in the order of the file, then columns, stacks, beds.
 /// The same seed gives the same spheres on every machine.
 ///
 /// With Scene::resolve, overlapping spheres are moved apart, each by half the overlap along the

@@ -69,6 +69,14 @@ struct Stack {
   std::string material;
 };
 
+/// Generator: a rough floor of equal spheres held in place on a square lattice, touching.
+struct Bed {
+  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of the layer: all centres at its z
+  double width_m = 0.0;                                ///< side of the square that is covered
+  double radius_m = 0.0;
+  std::string material;
+};
+
 struct SolverChoice {
   std::string name = "gs[local=exact]";
   double tol = 1e-5;         ///< on eta
@@ -92,6 +100,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Column> columns;
   std::vector<Stack> stacks;
+  std::vector<Bed> beds;
 
   /// The steps that fill duration_s.
   std::int64_t step_count() const;

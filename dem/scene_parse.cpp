@@ -124,6 +124,16 @@ Stack read_stack(TomlReader in) {
   return stack;
 }
 
+Bed read_bed(TomlReader in) {
+  Bed bed;
+  bed.centre_m = in.vector("centre_m", bed.centre_m);
+  bed.width_m = in.number("width_m", Range::kPositive);
+  bed.radius_m = in.number("radius_m", Range::kPositive);
+  bed.material = in.text("material");
+  in.finish();
+  return bed;
+}
+
 template <class T>
 std::vector<T> read_all(TomlReader& in, std::string_view key, T (*read)(TomlReader)) {
   std::vector<T> items;
@@ -170,15 +180,18 @@ void check_materials(const Scene& scene, std::string_view subject) {
   for (const auto& body : scene.bodies) known(body.material, "bodies");
   for (const auto& column : scene.columns) known(column.material, "columns");
   for (const auto& stack : scene.stacks) known(stack.material, "stacks");
+  for (const auto& bed : scene.beds) known(bed.material, "beds");
 }
 
 // Every two materials that can meet have a law.
 void check_laws(const Scene& scene, std::string_view subject) {
   std::set<std::string> of_bodies;
-  for (const auto& body : scene.bodies) of_bodies.insert(body.material);
+  std::set<std::string> of_all;
+  for (const auto& body : scene.bodies) (body.fixed ? of_all : of_bodies).insert(body.material);
   for (const auto& column : scene.columns) of_bodies.insert(column.material);
   for (const auto& stack : scene.stacks) of_bodies.insert(stack.material);
-  std::set<std::string> of_all = of_bodies;
+  of_all.insert(of_bodies.begin(), of_bodies.end());
+  for (const auto& bed : scene.beds) of_all.insert(bed.material);
   for (const auto& plane : scene.planes) of_all.insert(plane.material);
   for (const std::string& first : of_bodies) {
     for (const std::string& second : of_all) {
@@ -209,6 +222,7 @@ Scene parse_scene(std::string_view text, std::string_view subject) {
   scene.bodies = read_all(in, "bodies", read_body);
   scene.columns = read_all(in, "columns", read_column);
   scene.stacks = read_all(in, "stacks", read_stack);
+  scene.beds = read_all(in, "beds", read_bed);
   in.finish();
   check_materials(scene, subject);
   check_laws(scene, subject);

@@ -68,6 +68,11 @@ std::string show(const Stack& stack) {
                      show(stack.base_m), stack.count, stack.radius_m, quote(stack.material));
 }
 
+std::string show(const Bed& bed) {
+  return fmt::format("\n[[beds]]\ncentre_m = {}\nwidth_m = {}\nradius_m = {}\nmaterial = {}\n",
+                     show(bed.centre_m), bed.width_m, bed.radius_m, quote(bed.material));
+}
+
 template <class Item>
 void append(std::string& out, const std::vector<Item>& items) {
   for (const Item& item : items) out += show(item);
@@ -90,6 +95,7 @@ std::string to_toml(const Scene& scene) {
   append(out, scene.bodies);
   append(out, scene.columns);
   append(out, scene.stacks);
+  append(out, scene.beds);
   return out;
 }
 

@@ -17,7 +17,7 @@ struct Summary {
   std::int64_t last_bonds = 0;
   double deepest_overlap_m = 0.0;  ///< of all steps
   double solve_s = 0.0;            ///< in the step solver, as it says
-  double engine_s = 0.0;           ///< everything else but the observers
+  double engine_s = 0.0;           ///< wall clock, without the step solver and the observers
 };
 
 /// Rigid spheres between walls, with Coulomb friction, restitution and cohesion: non-smooth

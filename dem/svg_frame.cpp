@@ -89,17 +89,21 @@ class Drawing {
     fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
   }
 
-  // One ball per colour: light from the upper left, dark rim.
+  // A ball with light from the upper left and a dark rim.
+  void define_ball(std::string_view id, const Colour& base) {
+    print(
+        "<radialGradient id=\"{}\" cx=\"0.36\" cy=\"0.32\" r=\"0.72\"><stop offset=\"0\" "
+        "stop-color=\"{}\"/><stop offset=\"0.45\" stop-color=\"{}\"/><stop offset=\"1\" "
+        "stop-color=\"{}\"/></radialGradient>\n",
+        id, hex(0.5 * base + Colour::Constant(127.0)), hex(base), hex(0.55 * base));
+  }
+
   void define_colours() {
     out_ += "<defs>\n";
     for (int k = 0; k < kColours; ++k) {
-      const Colour base = viridis(k / (kColours - 1.0));
-      print(
-          "<radialGradient id=\"s{}\" cx=\"0.36\" cy=\"0.32\" r=\"0.72\"><stop offset=\"0\" "
-          "stop-color=\"{}\"/><stop offset=\"0.45\" stop-color=\"{}\"/><stop offset=\"1\" "
-          "stop-color=\"{}\"/></radialGradient>\n",
-          k, hex(0.5 * base + Colour::Constant(127.0)), hex(base), hex(0.55 * base));
+      define_ball(fmt::format("s{}", k), viridis(k / (kColours - 1.0)));
     }
+    define_ball("fixed", Colour(200, 206, 210));
     out_ += "<linearGradient id=\"scale\">\n";
     for (int k = 0; k <= 8; ++k) {
       print("<stop offset=\"{}\" stop-color=\"{}\"/>\n", k / 8.0, hex(viridis(k / 8.0)));
@@ -112,31 +116,31 @@ class Drawing {
            view_.axes.row(2).dot(plane.normal) > 0.0;
   }
 
-  // A patch of the plane below the window, and the shadow of every sphere on it.
+  // The part of the plane below what is shown, and the shadow of every sphere on it.
   void draw_floor(const Plane& plane) {
-    const Eigen::Vector2d middle = 0.5 * (view_.low + view_.high);
-    const Eigen::Vector3d eye = view_.axes.transpose() * Eigen::Vector3d(middle[0], middle[1], 0.0);
-    const double half = 0.5 * (view_.high[0] - view_.low[0]);
-    const Eigen::Vector3d centre = along_view(plane, eye);
     const Eigen::Vector3d right =
-        half * plane.normal.cross(Eigen::Vector3d(view_.axes.row(2))).normalized() * -1.0;
-    const Eigen::Vector3d away = 0.55 * half * plane.normal.cross(right).normalized();
+        Eigen::Vector3d(view_.axes.row(2)).cross(plane.normal).normalized() * -1.0;
+    const Eigen::Vector3d away = plane.normal.cross(right);
+    Eigen::AlignedBox2d patch;
+    for (int k = 0; k < 8; ++k) {
+      const Eigen::Vector3d corner(k & 1 ? view_.high[0] : view_.low[0],
+                                   k & 2 ? view_.high[1] : view_.low[1],
+                                   k & 4 ? view_.high[2] : view_.low[2]);
+      const Eigen::Vector3d x = view_.axes.transpose() * corner - plane.point_m;
+      patch.extend(Eigen::Vector2d(right.dot(x), away.dot(x)));
+    }
     print("<polygon fill=\"#eceff1\" stroke=\"#b0bec5\" points=\"");
-    const std::array<Eigen::Vector2d, 4> signs = {Eigen::Vector2d(-1, -1), Eigen::Vector2d(1, -1),
-                                                  Eigen::Vector2d(1, 1), Eigen::Vector2d(-1, 1)};
-    for (const Eigen::Vector2d& sign : signs) {
-      const Eigen::Vector2d at = camera_(centre + sign[0] * right + sign[1] * away);
+    using Box = Eigen::AlignedBox2d;
+    for (const auto corner : {Box::BottomLeft, Box::BottomRight, Box::TopRight, Box::TopLeft}) {
+      const Eigen::Vector2d place = patch.corner(corner);
+      const Eigen::Vector2d at = camera_(plane.point_m + place[0] * right + place[1] * away);
       print("{:.1f},{:.1f} ", at[0], at[1]);
     }
     print("\"/>\n<g fill=\"#37474f\" fill-opacity=\"0.13\">\n");
-    for (std::size_t i = 0; i < frame_.positions.size(); ++i) draw_shadow(plane, i);
+    for (std::size_t i = 0; i < frame_.positions.size(); ++i) {
+      if (!frame_.fixed[i]) draw_shadow(plane, i);
+    }
     out_ += "</g>\n";
-  }
-
-  // Where the line of sight through x meets the plane.
-  Eigen::Vector3d along_view(const Plane& plane, const Eigen::Vector3d& x) const {
-    const Eigen::Vector3d sight = view_.axes.row(2);
-    return x - plane.normal.dot(x - plane.point_m) / plane.normal.dot(sight) * sight;
   }
 
   void draw_shadow(const Plane& plane, std::size_t i) {
@@ -161,6 +165,11 @@ class Drawing {
     });
     for (const std::size_t i : order) {
       const Eigen::Vector2d at = camera_(frame_.positions[i]);
+      if (frame_.fixed[i]) {
+        print("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"url(#fixed)\"/>\n", at[0],
+              at[1], camera_.scale() * frame_.radii[i]);
+        continue;
+      }
       const double share = std::clamp(frame_.speeds[i] / view_.fastest_m_s, 0.0, 1.0);
       print("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"url(#s{})\"/>\n", at[0], at[1],
             camera_.scale() * frame_.radii[i], std::lround(share * (kColours - 1)));
@@ -211,8 +220,9 @@ Eigen::Matrix3d view_axes(const Eigen::Vector3d& gravity) {
 }  // namespace
 
 Frame make_frame(const Spheres& spheres, double time_s) {
-  Frame frame{time_s, spheres.position, spheres.radius, {}};
+  Frame frame{time_s, spheres.position, spheres.radius, {}, {}};
   for (const Eigen::Vector3d& v : spheres.velocity) frame.speeds.push_back(v.norm());
+  for (const int dof : spheres.first_dof) frame.fixed.push_back(dof < 0);
   return frame;
 }
 
@@ -228,8 +238,9 @@ View fit_view(const Scene& scene, std::span<const Frame> frames) {
   double fastest = 0.0;
   for (const Frame& frame : frames) {
     for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-      const Eigen::Vector2d at = (view.axes * frame.positions[i]).head<2>();
-      const auto reach = Eigen::Vector2d::Constant(1.1 * frame.radii[i]);
+      if (frame.fixed[i]) continue;
+      const Eigen::Vector3d at = view.axes * frame.positions[i];
+      const auto reach = Eigen::Vector3d::Constant(1.1 * frame.radii[i]);
       view.low = view.low.cwiseMin(at - reach);
       view.high = view.high.cwiseMax(at + reach);
       fastest = std::max(fastest, frame.speeds[i]);

@@ -15,6 +15,7 @@ struct Frame {
   std::vector<Eigen::Vector3d> positions;  ///< [m]
   std::vector<double> radii;               ///< [m]
   std::vector<double> speeds;              ///< [m/s]
+  std::vector<bool> fixed;                 ///< drawn in grey, and outside the window if need be
 };
 
 Frame make_frame(const Spheres& spheres, double time_s);
@@ -22,8 +23,8 @@ Frame make_frame(const Spheres& spheres, double time_s);
 /// Where the eye is and what the colours mean; one view for all frames of a film.
 struct View {
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: right, up, towards the eye
-  Eigen::Vector2d low = Eigen::Vector2d::Zero();       ///< corner of the window [m]
-  Eigen::Vector2d high = Eigen::Vector2d::Ones();      ///< opposite corner [m]
+  Eigen::Vector3d low = Eigen::Vector3d::Zero();       ///< corner of what is shown, in axes [m]
+  Eigen::Vector3d high = Eigen::Vector3d::Ones();      ///< opposite corner [m]
   double fastest_m_s = 1.0;                            ///< speed at the end of the colour scale
 };
 

@@ -43,6 +43,8 @@ int complain(const std::string& message, int code) {
 
 // CLI11 would call it an unexpected argument; a newcomer is better served by the nearest verb.
 void check_verbs(const CLI::App& program, const std::vector<std::string>& arguments) {
+  problems::require(!arguments.empty(), "usage",
+                    "a command is expected; `conebench --help` lists them");
   const CLI::App* level = &program;
   for (const std::string& argument : arguments) {
     const auto verbs = level->get_subcommands([](const CLI::App*) { return true; });
@@ -137,9 +139,9 @@ int run_program(const std::vector<std::string>& arguments) {
   CLI::App program(
       "Compares solvers on the contact problems with friction and cohesion that granular\n"
       "simulations pose at every time step, and tells which solver to use.");
-  describe(program);
   int exit_code = 0;
   add_verbs(program, exit_code);
+  describe(program);  // last: verbs would inherit the footer
   const int code = parse_and_run(program, arguments, exit_code);
   if (std::fflush(stdout) != 0) return complain("stdout: cannot write", kInfrastructure);
   return code;

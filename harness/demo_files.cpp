@@ -1,5 +1,7 @@
 #include "harness/demo_files.h"
 
+#include <chrono>
+
 #include "dem/export.h"
 #include "dem/simulation.h"
 #include "harness/small_problems.h"
@@ -8,8 +10,10 @@
 #include "results/output.h"
 
 namespace conebench::harness {
+
 std::vector<std::filesystem::path> export_scene(const std::string& scene, int steps, int first,
-                                                int stride, const std::string& variant,
+                                                int stride, double budget_s,
+                                                const std::string& variant,
                                                 const std::filesystem::path& folder) {
   const dem::Scene loaded = dem::load_scene(scene);
   std::vector<std::filesystem::path> files;
@@ -22,7 +26,11 @@ std::vector<std::filesystem::path> export_scene(const std::string& scene, int st
     if (exporter.written() == before) return;
     files.push_back(folder / (view.problem->name() + ".h5"));
   });
-  simulation.run(steps);
+  const auto start = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> budget(budget_s);
+  while (simulation.summary().steps < steps && std::chrono::steady_clock::now() - start < budget) {
+    simulation.step();
+  }
   return files;
 }
 

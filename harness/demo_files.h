@@ -10,7 +10,8 @@ namespace conebench::harness {
 /// from `first` on as a problem file in `folder`. Returns the files. At each step the solver may
 /// use the scene's tolerance and time limit.
 std::vector<std::filesystem::path> export_scene(const std::string& scene, int steps, int first,
-                                                int stride, const std::string& variant,
+                                                int stride, double budget_s,
+                                                const std::string& variant,
                                                 const std::filesystem::path& folder);
 
 /// Writes the small_recipes() as problem files in `folder`. Returns the files.

@@ -20,6 +20,7 @@ SparseMatrix canonical(const SparseMatrix& matrix) {
 }
 
 double asymmetry(const SparseMatrix& matrix) {
+  if (matrix.nonZeros() == 0) return 0.0;
   const double size = matrix.norm();
   if (!(size > 0.0)) return 0.0;
   const SparseMatrix transposed = matrix.transpose();

@@ -76,6 +76,7 @@ TimeTable make_time_table(std::span<const Record> records, double t) {
     task.status = record.status;
   }
 
+  std::sort(table.solvers.begin(), table.solvers.end());
   for (const auto& [sha, problem] : problems) {
     TimeTable::Row row{.problem = problem, .time_s = {}, .status = {}};
     for (const std::string& solver : table.solvers) {

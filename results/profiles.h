@@ -23,7 +23,7 @@ struct TimeTable {
     std::vector<std::optional<Status>> status;  ///< of the last repetition; nothing: not run
   };
   double tol = 0.0;
-  std::vector<std::string> solvers;  ///< in order of first appearance
+  std::vector<std::string> solvers;  ///< in alphabetical order
   std::vector<Row> rows;             ///< sorted by family, then name
 };
 

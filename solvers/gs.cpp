@@ -302,7 +302,33 @@ Solver make(const Method& method, const Values& values) {
   return make_checked_solver(method, values, refuses, run);
 }
 
+std::size_t local_bytes(int dim) {
+  switch (dim) {
+    case 1:
+      return sizeof(LocalData<1>);
+    case 2:
+      return sizeof(LocalData<2>);
+    case 3:
+      return sizeof(LocalData<3>);
+    case 6:
+      return sizeof(LocalData<6>);
+    default:
+      return sizeof(LocalData<Eigen::Dynamic>) +
+             sizeof(double) * static_cast<std::size_t>(2 * dim * dim);
+  }
+}
+
 }  // namespace
+
+std::size_t gauss_seidel_sweep_bytes(const Problem& problem) {
+  const BlockedRows rows(problem);
+  std::size_t bytes = rows.bytes();
+  for (const Cone& cone : problem.cones()) {
+    bytes += local_bytes(cone.dim) + sizeof(Cone) + sizeof(std::size_t) + sizeof(double) +
+             2 * sizeof(double) * static_cast<std::size_t>(cone.dim);
+  }
+  return bytes + sizeof(double) * static_cast<std::size_t>(rows.scaled_dofs());
+}
 
 Method gauss_seidel() {
   Method method{

@@ -28,4 +28,8 @@ namespace conebench::solvers {
 /// Source  Jourdan, Alart, Jean, CMAME 155 (1998) 31-47 (not checked); local step: our derivation.
 Method gauss_seidel();
 
+/// Bytes that one sweep of the velocity form with local=exact must read or write, each once: blocks
+/// and indices, local data, r, w and y. Precondition: M is block diagonal.
+std::size_t gauss_seidel_sweep_bytes(const problems::Problem& problem);
+
 }  // namespace conebench::solvers

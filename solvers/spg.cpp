@@ -74,7 +74,9 @@ class Iteration {
 
   void advance(std::int64_t iteration) {
     if (iteration % kIterationsPerRefresh == 0 && iteration > 0) u_ = problem_.rate(r_);
-    if (iteration % settings_.refresh == 0) refresh_de_saxce();
+    // A subproblem solved to rounding before its time is over is refreshed at once.
+    const bool fresh = still_ || iteration % settings_.refresh == 0;
+    if (fresh) refresh_de_saxce();
     const Eigen::VectorXd gradient = shifted_rate();
     const Eigen::VectorXd d = projected_step(gradient, alpha_);
     const Eigen::VectorXd Wd = problem_.apply_delassus(d);
@@ -87,7 +89,8 @@ class Iteration {
     r_ += t * d;
     u_ += t * Wd;
     update_alpha(d, Wd, curvature);
-    stalled_ = size_as_rate(d) * t <= kNoProgress * size_as_rate(r_);
+    still_ = size_as_rate(d) * t <= kNoProgress * size_as_rate(r_);
+    stalled_ = still_ && fresh;
   }
 
   // max lambda_i |r_i - P_K(r_i - u_hat_i / lambda_i)| with the De Saxce term of the current u.
@@ -181,7 +184,8 @@ class Iteration {
   Eigen::VectorXd theta_s_;  // theta_i s_i
   double alpha_ = 1.0;
   History history_;
-  bool stalled_ = false;
+  bool still_ = false;    // the last step was rounding
+  bool stalled_ = false;  // and its De Saxce term was that of its own iterate
 };
 
 Result iterate(const Problem& problem, const Settings& settings, const Stop& stop,

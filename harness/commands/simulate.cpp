@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "dem/simulation.h"
 #include "dem/svg_frame.h"
@@ -52,16 +55,23 @@ class Film {
   std::vector<dem::Frame> frames_;
 };
 
-// Height of the highest point against gravity, and how far out the centres are: what a collapse
-// is judged by.
+// What a collapse is judged by: highest point and mean height along z, and the root mean square
+// distance from the vertical through the centre of mass, of the spheres that can move.
 nlohmann::json shape_of(const dem::Simulation& simulation) {
   const dem::Spheres& spheres = simulation.spheres();
-  double top = -std::numeric_limits<double>::infinity(), reach = 0.0;
+  double top = -std::numeric_limits<double>::infinity(), squares = 0.0, mass = 0.0;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < spheres.position.size(); ++i) {
-    top = std::max(top, spheres.position[i].z() + spheres.radius[i]);
-    reach = std::max(reach, spheres.position[i].head<2>().norm());
+    if (spheres.first_dof[i] < 0) continue;
+    const Eigen::Vector3d& x = spheres.position[i];
+    top = std::max(top, x.z() + spheres.radius[i]);
+    centre += spheres.mass[i] * x;
+    squares += spheres.mass[i] * x.head<2>().squaredNorm();
+    mass += spheres.mass[i];
   }
-  return {{"top_m", top}, {"farthest_from_axis_m", reach}};
+  centre /= mass;
+  const double spread = std::sqrt(std::max(0.0, squares / mass - centre.head<2>().squaredNorm()));
+  return {{"top_m", top}, {"mean_height_m", centre.z()}, {"spread_m", spread}};
 }
 
 nlohmann::json summarise(const dem::Simulation& simulation, const std::string& solver) {
@@ -106,9 +116,11 @@ void print_summary(const nlohmann::json& s) {
              count(s["steps_without_contacts"]));
   fmt::print("contacts  {} at the end ({} bonded), {} at most\n", count(s["cones_last"]),
              count(s["bonds_last"]), count(s["cones_most"]));
-  fmt::print("shape     top {:.4g} m, farthest {:.4g} m from the axis, deepest overlap {:.2g} m\n",
-             number(s["shape"]["top_m"]), number(s["shape"]["farthest_from_axis_m"]),
-             number(s["deepest_overlap_m"]));
+  fmt::print(
+      "shape     top {:.3g} m, mean height {:.3g} m, spread {:.3g} m (rms); deepest overlap "
+      "{:.2g} m\n",
+      number(s["shape"]["top_m"]), number(s["shape"]["mean_height_m"]),
+      number(s["shape"]["spread_m"]), number(s["deepest_overlap_m"]));
   const auto& energy = s["energy"];
   fmt::print(
       "energy    kinetic {:.4g} J, friction {:.4g} J, impact {:.4g} J, bonds {:.4g} J; "

@@ -178,6 +178,17 @@ TEST(Scene, FixedBodiesCannotMove) {
               HasSubstr("bodies[1].velocity_m_s: a fixed body does not move"));
 }
 
+TEST(Scene, BedsAreHeldInPlace) {
+  const std::string bed = "[[beds]]\nwidth_m = 0.5\nradius_m = 0.1\nmaterial = \"glass\"\n";
+  const dem::Scene scene = dem::parse_scene(kScene + bed, "bed");
+  const dem::Spheres spheres = dem::place_spheres(scene, "bed");
+  ASSERT_EQ(spheres.count(), 2 + 9);
+  EXPECT_EQ(spheres.dofs, 12);
+  EXPECT_LT((spheres.position[2] - Eigen::Vector3d(-0.2, -0.2, 0.0)).norm(), 1e-15);
+  const std::string text = dem::to_toml(scene);
+  EXPECT_EQ(dem::to_toml(dem::parse_scene(text, "bed")), text);
+}
+
 TEST(Scene, ColumnsFillTheirSection) {
   std::string text = kScene.substr(0, kScene.find("[[bodies]]"));
   text +=

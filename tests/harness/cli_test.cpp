@@ -77,8 +77,8 @@ TEST_F(CommandLineTest, HelpNamesEveryVerbAndTheExitCodes) {
 }
 
 TEST_F(CommandLineTest, BadUseIsOneLineAndExitCodeTwo) {
-  expect_usage_error("slove x", "did you mean 'solve'?");
-  expect_usage_error("solver lits", "did you mean 'list'?");
+  expect_usage_error("solv x", "did you mean 'solve'?");
+  expect_usage_error("solver lis", "did you mean 'list'?");
   expect_usage_error("", "command");
   expect_usage_error("solve no-such-file.h5", "no-such-file.h5");
   expect_usage_error("solve " + problem() + " -s gsx", "gsx");

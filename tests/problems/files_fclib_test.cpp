@@ -4,7 +4,7 @@ extern "C" {
 #include <fclib.h>
 }
 
-#include <algorithm>
+#include <cstdlib>
 
 #include "problems/fclib.h"
 #include "tests/problems/files_support.h"
@@ -45,6 +45,7 @@ void expect_global(const std::filesystem::path& path, const Problem& expected) {
   EXPECT_EQ(found->G, nullptr);
   EXPECT_STREQ(found->info->title, expected.name().c_str());
   fclib_delete_global(found);
+  std::free(found);  // the library frees what it points to
 }
 
 void expect_local(const std::filesystem::path& path, const Problem& expected) {
@@ -56,6 +57,7 @@ void expect_local(const std::filesystem::path& path, const Problem& expected) {
   EXPECT_EQ(found->mu[2], 0.8);
   EXPECT_EQ(found->V, nullptr);
   fclib_delete_local(found);
+  std::free(found);
 }
 
 TEST_F(WithFclib, ReadsOurFilesAndOurExports) {

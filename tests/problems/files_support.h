@@ -69,7 +69,7 @@ inline Problem sample_primal(std::vector<Cone> cones, unsigned seed = 1) {
   const Eigen::Index rows = rows_of(cones);
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(kDofs, kDofs);
   for (Eigen::Index block = 0; block < kDofs; block += 3) {
-    const Eigen::Matrix3d root = Eigen::Matrix3d::Random();
+    const Eigen::Matrix3d root = random_matrix(3, 3, 1.0, random);
     M.block<3, 3>(block, block) = root * root.transpose() + Eigen::Matrix3d::Identity();
   }
   return {PrimalData{M.sparseView(), random_matrix(rows, kDofs, 0.5, random),

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/solvers/local_proof.h"
-#include "tests/solvers/random_blocks.h"
+#include "harness/microbench/local_proof.h"
+#include "harness/microbench/random_blocks.h"
 
 namespace conebench::solvers {
 namespace {

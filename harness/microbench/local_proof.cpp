@@ -1,4 +1,4 @@
-#include "tests/solvers/local_proof.h"
+#include "harness/microbench/local_proof.h"
 
 #include <unsupported/Eigen/Polynomials>
 #include <vector>

@@ -1,0 +1,155 @@
+// One sweep of Gauss-Seidel in velocity form on packed spheres, beside its floor:
+// max(bytes that a sweep must move / bandwidth at that working set, time of its local solves).
+//
+//   build/sweep_benchmark
+//
+// All three are measured in the same run, since machines are noisy: compare them as ratios.
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <numeric>
+
+#include "problems/made_backwards.h"
+#include "solvers/blocked_rows.h"
+#include "solvers/gs.h"
+#include "solvers/local/exact.h"
+#include "solvers/registry.h"
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Cone;
+using problems::PrimalData;
+using problems::Problem;
+using problems::SparseMatrix;
+
+// Unit spheres on a cubic lattice, each touching its lower neighbours or the floor, one step under
+// tilted gravity: about three contacts a sphere.
+Problem sphere_lattice(int contacts) {
+  const int side = std::max(2, static_cast<int>(std::lround(std::cbrt(contacts / 3.0))));
+  auto body = [&](int x, int y, int z) { return (x * side + y) * side + z; };
+  std::vector<Eigen::Triplet<double, int>> H;
+  int row = 0;
+  auto add_contact = [&](int axis, int above, int below) {
+    const int t1 = (axis + 1) % 3, t2 = (axis + 2) % 3;
+    const int directions[3] = {axis, t1, t2};
+    for (int k = 0; k < 3; ++k, ++row) {
+      H.emplace_back(row, 6 * above + directions[k], 1.0);
+      if (below >= 0) H.emplace_back(row, 6 * below + directions[k], -1.0);
+      if (k == 0) continue;
+      // The contact point moves by omega x (arm along the axis): both spheres turn it alike.
+      const int about = k == 1 ? t2 : t1;
+      const double arm = k == 1 ? -1.0 : 1.0;
+      H.emplace_back(row, 6 * above + 3 + about, arm);
+      if (below >= 0) H.emplace_back(row, 6 * below + 3 + about, arm);
+    }
+  };
+  for (int x = 0; x < side; ++x) {
+    for (int y = 0; y < side; ++y) {
+      for (int z = 0; z < side; ++z) {
+        add_contact(2, body(x, y, z), z > 0 ? body(x, y, z - 1) : -1);
+        if (x > 0) add_contact(0, body(x, y, z), body(x - 1, y, z));
+        if (y > 0) add_contact(1, body(x, y, z), body(x, y - 1, z));
+      }
+    }
+  }
+  const int dofs = 6 * side * side * side;
+  SparseMatrix jacobian(row, dofs), mass(dofs, dofs);
+  jacobian.setFromTriplets(H.begin(), H.end());
+  mass.setIdentity();
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(dofs);
+  for (int dof = 0; dof < dofs; ++dof) {
+    if (dof % 6 >= 3) mass.coeffRef(dof, dof) = 0.4;
+    if (dof % 6 == 2) f(dof) = -1e-2;
+    if (dof % 6 == 0) f(dof) = 4e-3;
+  }
+  return Problem(PrimalData{mass, jacobian, f, Eigen::VectorXd::Zero(row)},
+                 std::vector<Cone>(static_cast<std::size_t>(row / 3), Cone::coulomb(3, 0.5)), {});
+}
+
+double seconds_of(const std::function<void()>& action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Best of several reads of an array as large as what a sweep touches. [bytes/s]
+double read_bandwidth(std::size_t bytes) {
+  const std::vector<double> data(std::max<std::size_t>(bytes / sizeof(double), 1024), 1.0);
+  const std::size_t passes = std::max<std::size_t>(1, (std::size_t{1} << 26) / bytes);
+  double best = 0.0;
+  for (int repetition = 0; repetition < 7; ++repetition) {
+    const Eigen::Map<const Eigen::VectorXd> view(data.data(),
+                                                 static_cast<Eigen::Index>(data.size()));
+    const double time = seconds_of([&] {
+      for (std::size_t pass = 0; pass < passes; ++pass) benchmark::DoNotOptimize(view.sum());
+    });
+    best = std::max(best, static_cast<double>(passes * data.size() * sizeof(double)) / time);
+  }
+  return best;
+}
+
+// The sweep's own local problems at r, solved again and again: best time per contact. [s]
+double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
+  struct Local {
+    ExactLocal<3> exact;
+    Eigen::Vector3d q, r;
+    double a = 0.0;
+  };
+  const BlockedRows rows(problem);
+  const Eigen::VectorXd u = problem.rate(r);
+  std::vector<Local> locals(static_cast<std::size_t>(problem.cone_count()));
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    Local& local = locals[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d W = rows.diagonal_block(i, 3);
+    local.exact.set(W, problem.mobility()(i), 0.5, 0.5);
+    local.r = r.segment<3>(problem.start(i));
+    local.q = u.segment<3>(problem.start(i)) - W * local.r;
+  }
+  double best = 1e9;
+  for (int repetition = 0; repetition < 7; ++repetition) {
+    best = std::min(best, seconds_of([&] {
+                      for (Local& local : locals) {
+                        local.exact.solve(local.q, local.r, local.a);
+                        benchmark::DoNotOptimize(local.r.data());
+                      }
+                    }));
+  }
+  return best / problem.cone_count();
+}
+
+void sweep(benchmark::State& state) {
+  const Problem problem = sphere_lattice(static_cast<int>(state.range(0)));
+  const Solver solver = make_solver("gs[form=velocity]");
+  const auto sweeps = std::max<std::int64_t>(10, 2'000'000 / problem.cone_count());
+  Request request;
+  request.stop = {.tol = 1e-300, .max_iterations = sweeps, .test = StopTest::kOwn};
+  Result result;
+  double best = 1e9;
+  for (auto _ : state) {
+    result = solver.solve(problem, request);
+    best = std::min(best, result.solve_s / static_cast<double>(result.iterations));
+  }
+  const double contacts = problem.cone_count();
+  const auto bytes = static_cast<double>(gauss_seidel_sweep_bytes(problem));
+  const double moved = bytes / read_bandwidth(static_cast<std::size_t>(bytes)) / contacts;
+  const double local = local_solve_time(problem, result.r);
+  state.counters["contacts"] = contacts;
+  state.counters["ns_per_contact"] = 1e9 * best / contacts;
+  state.counters["bytes_per_contact"] = bytes / contacts;
+  state.counters["ns_bytes"] = 1e9 * moved;
+  state.counters["ns_local"] = 1e9 * local;
+  state.counters["times_floor"] = best / contacts / std::max(moved, local);
+}
+
+BENCHMARK(sweep)
+    ->RangeMultiplier(10)
+    ->Range(1000, 100000)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(5);
+
+}  // namespace
+}  // namespace conebench::solvers
+
+BENCHMARK_MAIN();
