@@ -16,6 +16,7 @@ namespace {
 constexpr double kWidth_px = 800.0;
 constexpr double kMargin_px = 24.0;
 constexpr double kCaption_px = 64.0;
+constexpr double kAspect = 1.4;  // of the window, at least
 constexpr int kColours = 32;
 constexpr double kSide_rad = 24.0 * std::numbers::pi / 180.0;
 constexpr double kAbove_rad = 14.0 * std::numbers::pi / 180.0;
@@ -247,6 +248,9 @@ View fit_view(const Scene& scene, std::span<const Frame> frames) {
     }
   }
   if (fastest > 0.0) view.fastest_m_s = fastest;
+  const double missing = kAspect * (view.high[1] - view.low[1]) - (view.high[0] - view.low[0]);
+  view.low[0] -= 0.5 * std::max(missing, 0.0);
+  view.high[0] += 0.5 * std::max(missing, 0.0);
   return view;
 }
 

@@ -29,7 +29,8 @@ struct View {
 };
 
 /// A view that holds all frames: along +y, slightly from the side and from above, up against
-/// gravity (z without gravity), parallel projection.
+/// gravity (z without gravity), parallel projection. The window is at least 1.4 times as wide as
+/// high, so that columns of one height are drawn to one scale unless they spread far.
 View fit_view(const Scene& scene, std::span<const Frame> frames);
 
 /// An SVG picture: the spheres as shaded discs, far ones first, coloured by speed (viridis, which

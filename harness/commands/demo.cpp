@@ -137,8 +137,11 @@ void add_demo(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb = app.add_subcommand(
       "demo", "Simulate, export, solve with every kind of solver, report; less than 3 minutes");
-  verb->add_option("-o,--output", options->folder, "Folder to write to")->capture_default_str();
-  verb->add_option("--data", options->data, "More problem files, used where the folder exists");
+  verb->add_option("-o,--output", options->folder, "Folder to write to")
+      ->capture_default_str()
+      ->take_last();
+  verb->add_option("--data", options->data, "More problem files, used where the folder exists")
+      ->take_last();
   verb->callback([options, &exit_code] { exit_code = demo(options->folder, options->data); });
 }
 

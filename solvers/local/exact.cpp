@@ -13,6 +13,9 @@ constexpr double kZeroEigenvalue = 4e-15;
 constexpr double kZeroDiagonal = 1e-16;
 // q counts as in range(W) when its part in null(W) is below this share of it.
 constexpr double kInRange = 1e-14;
+// psi varies on the scale of a itself, so Newton's error after a step of this relative size is
+// about its square: rounding.
+constexpr double kQuadratic = 1e-8;
 // Points of the scan for the valley of psi when S is singular.
 constexpr int kScanPoints = 400;
 
@@ -154,15 +157,17 @@ bool ExactLocal<D>::slide_coulomb(const Reduced& p, double& a, Tangent& rt, doub
   }
 
   double x = a > low && a < high ? a : 0.5 * (low + high);
-  for (int step = 0; step < 100; ++step) {
+  for (int evaluation = 0; evaluation < 100; ++evaluation) {
     double slope = 0.0;
     const double value = psi(x, &slope);
     (value < 0.0 ? low : high) = x;
-    double next = x - value / slope;
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const bool settled = std::abs(next - x) <= 1e-15 * x;
-    x = next;
-    if (settled) break;
+    const double step = -value / slope;
+    if (std::abs(step) <= kQuadratic * x) {
+      x += step;
+      break;
+    }
+    x = x + step > low && x + step < high ? x + step : 0.5 * (low + high);
+    if (high - low <= 1e-15 * high) break;
   }
   a = x;
   psi(x, nullptr);

@@ -43,7 +43,7 @@ inline solvers::Solver solver_that(const std::string& name,
 }
 
 inline solvers::Solver honest_solver() {
-  return solver_that("honest", [](Eigen::VectorXd& r) { r = Eigen::Vector3d(1.0, -0.25, 0.0); });
+  return solver_that("honest", [](Eigen::VectorXd& r) { r << 1.0, -0.25, 0.0; });
 }
 
 }  // namespace conebench::harness

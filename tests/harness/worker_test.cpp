@@ -102,7 +102,7 @@ TEST(Worker, WhatASolverPrintsDoesNotReachTheRecord) {
       std::printf("{\"status\": \"nonsense\"}\n");
       std::fprintf(stderr, "more nonsense\n");
     }
-    r = Eigen::Vector3d(1.0, -0.25, 0.0);
+    r << 1.0, -0.25, 0.0;
   }));
   EXPECT_EQ(record.status, Status::kConverged);
 }
@@ -110,13 +110,12 @@ TEST(Worker, WhatASolverPrintsDoesNotReachTheRecord) {
 TEST(Worker, AHangIsKilledWithEverythingThatItStarted) {
   const std::string pid_file =
       testing::TempDir() + "conebench-grandchild-" + std::to_string(::getpid());
-  const auto hang = [pid_file](auto&) {
+  const auto hang = [pid_file](Eigen::VectorXd&) {
     if (::fork() == 0) {
       std::ofstream(pid_file) << ::getpid() << std::flush;
       for (;;) ::pause();
     }
-    for (volatile unsigned i = 0;; i = i + 1) {
-    }
+    for (;;) static_cast<void>(::getppid());  // busy
   };
   const auto record = run_task({.problem = {},
                                 .load = [] { return one_contact(); },
