@@ -80,7 +80,8 @@ struct Bed {
 struct SolverChoice {
   std::string name = "gs[local=exact]";
   double tol = 1e-5;         ///< on eta
-  double time_limit_s = 10;  ///< of one step
+  double time_limit_s = 10;  ///< of one step; a step that it ends depends on the machine
+  std::int64_t max_iterations = 1'000'000;  ///< of one step; ends it alike everywhere
 };
 
 /// A simulation as it is written in a scene file (TOML, SI units in the key names).

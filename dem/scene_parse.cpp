@@ -22,6 +22,7 @@ SolverChoice read_solver(TomlReader in) {
   choice.name = in.text("name", choice.name);
   choice.tol = in.number("tol", Range::kPositive, choice.tol);
   choice.time_limit_s = in.number("time_limit_s", Range::kPositive, choice.time_limit_s);
+  choice.max_iterations = in.integer("max_iterations", 1, choice.max_iterations);
   in.finish();
   return choice;
 }

@@ -86,8 +86,9 @@ std::string to_toml(const Scene& scene) {
       "seed = {}\nskin_m = {}\nresolve = {}\n",
       quote(scene.name), show(scene.gravity_m_s2), scene.step_s, scene.duration_s, scene.seed,
       scene.skin_m, scene.resolve);
-  out += fmt::format("\n[solver]\nname = {}\ntol = {}\ntime_limit_s = {}\n",
-                     quote(scene.solver.name), scene.solver.tol, scene.solver.time_limit_s);
+  out += fmt::format("\n[solver]\nname = {}\ntol = {}\ntime_limit_s = {}\nmax_iterations = {}\n",
+                     quote(scene.solver.name), scene.solver.tol, scene.solver.time_limit_s,
+                     scene.solver.max_iterations);
   if (scene.default_pair) out += "\n[default_pair]\n" + show(*scene.default_pair);
   append(out, scene.materials);
   append(out, scene.pairs);

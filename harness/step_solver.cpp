@@ -5,8 +5,10 @@
 
 namespace conebench::harness {
 
-dem::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s) {
-  const solvers::Stop stop{.tol = tol, .time_limit_s = time_limit_s};
+dem::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s,
+                                 std::int64_t max_iterations) {
+  const solvers::Stop stop{
+      .tol = tol, .max_iterations = max_iterations, .time_limit_s = time_limit_s};
   stop.check();
   return [solver = solvers::make_solver(variant), stop](const problems::Problem& standard,
                                                         const Eigen::VectorXd& guess) {

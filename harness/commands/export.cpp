@@ -26,7 +26,8 @@ int export_steps(const ExportOptions& options) {
   dem::Exporter exporter(options.folder, dem::parse_selection(policy));
   const std::string solver = options.solver.empty() ? scene.solver.name : options.solver;
   dem::Simulation simulation(scene,
-                             make_step_solver(solver, scene.solver.tol, scene.solver.time_limit_s));
+                             make_step_solver(solver, scene.solver.tol, scene.solver.time_limit_s,
+                                              scene.solver.max_iterations));
   simulation.add_observer(std::ref(exporter));
 
   catch_interrupts();

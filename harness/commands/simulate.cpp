@@ -138,7 +138,8 @@ int simulate(const SimulateOptions& options) {
   const std::string solver = options.solver.empty() ? scene.solver.name : options.solver;
   const std::int64_t steps = options.steps > 0 ? options.steps : scene.step_count();
   dem::Simulation simulation(scene,
-                             make_step_solver(solver, scene.solver.tol, scene.solver.time_limit_s));
+                             make_step_solver(solver, scene.solver.tol, scene.solver.time_limit_s,
+                                              scene.solver.max_iterations));
   std::optional<dem::VtkWriter> vtk;
   if (!options.folder.empty()) {
     vtk.emplace(options.folder, scene.step_s, std::max<std::int64_t>(1, steps / kVtkFiles));
