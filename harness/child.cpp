@@ -1,6 +1,7 @@
 #include "harness/child.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -14,6 +15,7 @@
 
 #include "harness/child_main.h"
 #include "problems/error.h"
+#include "results/text.h"
 
 namespace conebench::harness {
 namespace {
@@ -136,6 +138,16 @@ std::optional<ChildOutcome> Child::poll() {
   outcome_.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   outcome_.peak_memory_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
   return outcome_;
+}
+
+std::string describe_end(const ChildOutcome& outcome) {
+  std::string text = fmt::format("exit code {}", outcome.exit_code);
+  if (outcome.timed_out) {
+    text = fmt::format("killed after {}", results::format_time(outcome.wall_s));
+  } else if (outcome.signal != 0) {
+    text = fmt::format("SIG{} ({})", ::sigabbrev_np(outcome.signal), ::strsignal(outcome.signal));
+  }
+  return outcome.errors.empty() ? text : text + "; stderr: " + outcome.errors;
 }
 
 void wait_for_news(const std::vector<const Child*>& children, double longest_s) {

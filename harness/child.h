@@ -61,6 +61,9 @@ class Child {
   int output_fd_ = -1, errors_fd_ = -1;
 };
 
+/// "SIGSEGV (Segmentation fault)", "killed after 5.00 s", "exit code 70", with the tail of stderr.
+std::string describe_end(const ChildOutcome& outcome);
+
 /// The exit code of a child whose work threw.
 inline constexpr int kUncaughtExit = 70;
 

@@ -43,8 +43,7 @@ std::variant<ProblemId, std::string> identity_of(const std::filesystem::path& pa
                                                  const ChildOutcome& outcome) {
   const json message = json::parse(outcome.output, nullptr, false);
   if (message.is_discarded()) {
-    return fmt::format("{}: reading it ended the reader ({})", path.string(),
-                       outcome.timed_out ? "too slow" : outcome.errors);
+    return fmt::format("{}: the reader ended: {}", path.string(), describe_end(outcome));
   }
   if (message.contains("error")) return std::string(message["error"]);
   return ProblemId{.name = message["name"],

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <csignal>
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "harness/error_text.h"
@@ -13,7 +12,6 @@
 #include "harness/judge.h"
 #include "harness/problem_id.h"
 #include "problems/problem_file.h"
-#include "results/text.h"
 #include "solvers/monitor.h"
 
 namespace conebench::harness {
@@ -101,28 +99,16 @@ std::string work(const Task& task) {
 
 // ---- In the parent.
 
-std::string with_errors(std::string text, const std::string& errors) {
-  return errors.empty() ? text : text + "; stderr: " + errors;
-}
-
 // The worker left no message.
 void explain_death(const ChildOutcome& outcome, Record& record) {
   if (outcome.timed_out || outcome.signal == SIGXCPU) {
-    fail(record, Status::kKilledTime,
-         fmt::format("stopped at the hard limit after {}", results::format_time(outcome.wall_s)));
+    fail(record, Status::kKilledTime, "at the hard limit: " + describe_end(outcome));
   } else if (outcome.errors.find("std::bad_alloc") != std::string::npos) {
     fail(record, Status::kKilledMemory, "an allocation failed");
   } else if (outcome.signal == SIGKILL) {
     fail(record, Status::kKilledMemory, "killed by the system, most likely out of memory");
-  } else if (outcome.signal != 0) {
-    fail(record, Status::kCrashed,
-         with_errors(
-             fmt::format("SIG{} ({})", ::sigabbrev_np(outcome.signal), ::strsignal(outcome.signal)),
-             outcome.errors));
   } else {
-    fail(record, Status::kCrashed,
-         with_errors(fmt::format("ended without an answer, exit code {}", outcome.exit_code),
-                     outcome.errors));
+    fail(record, Status::kCrashed, "ended without an answer: " + describe_end(outcome));
   }
 }
 

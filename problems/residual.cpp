@@ -73,6 +73,18 @@ double reaction_rate(const Problem& problem, const Eigen::VectorXd& r) {
   return largest;
 }
 
+// The largest rate that cancels in u: lambda_i |r_i|, and what moving bodies carry, | |H_i| |v| |.
+double cancelling_rate(const Problem& problem, const Eigen::VectorXd& r) {
+  double largest = reaction_rate(problem, r);
+  if (!problem.is_primal()) return largest;
+  const Eigen::VectorXd carried = problem.H().cwiseAbs() * problem.velocity(r).cwiseAbs();
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
+    largest = std::max(largest, carried.segment(problem.start(i), dim).norm());
+  }
+  return largest;
+}
+
 // U, or what stands in for it when the data are all zero.
 double divisor(const Problem& problem, const Eigen::VectorXd& r) {
   if (problem.rate_scale() > 0.0) return problem.rate_scale();
@@ -193,7 +205,7 @@ Residual evaluate_residual(const Problem& standard, const Eigen::VectorXd& r) {
       angle(i) = angle_against(r.segment(standard.start(i), dim), ui);
     }
   }
-  result.attainable_eta = 1e-16 * reaction_rate(standard, r) / scale;
+  result.attainable_eta = 1e-16 * cancelling_rate(standard, r) / scale;
   const double natural = std::sqrt(natural_square);
   const double q_size = standard.q().norm();
   result.fclib = natural / std::max(q_size, 1e-300);

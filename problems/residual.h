@@ -19,7 +19,8 @@ struct Measure {
 struct Residual {
   /// eta_i = lambda_i |r'_i - P_K(r'_i - u_hat_i / lambda_i)| / U  [-]; eta.max decides success.
   Measure eta;
-  /// About 1e-16 max lambda_i |r'_i| / U: no method working in doubles can promise less.
+  /// About 1e-16 max(lambda_i |r'_i|, | |H_i| |v| |) / U: what cancels in u, in doubles. No method
+  /// can promise less, and two evaluations of eta may differ by a few times as much.
   double attainable_eta = 0.0;
   bool finite = true;  ///< false when r' or u holds a NaN or an infinity; then eta.max is infinite
 

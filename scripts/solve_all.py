@@ -5,8 +5,8 @@
 
 CHECKER is a program called as `CHECKER PROBLEM SOLUTION` that prints one JSON line with `eta`,
 written independently of this project. It is given each problem in this project's format.
-Writes OUT_STEM.csv and OUT_STEM.md. Exit 1 if the two etas disagree beyond
-|d eta| <= 1e-6 eta + 1e-15 max(1, max_i lambda_i |r'_i| / U) anywhere.
+Writes OUT_STEM.csv and OUT_STEM.md. Exit 1 if the two etas differ anywhere by more than
+1e-6 eta + 1e-15 + 10 attainable_eta, the rounding of what cancels in u.
 """
 import argparse
 import csv

@@ -22,8 +22,8 @@ using Files = std::vector<std::filesystem::path>;
 // What the demo compares; one line a variant.
 const std::vector<std::string>& demo_variants() {
   static const std::vector<std::string> variants = {
-      "gs",  "gs[local=projection]", "gs[omega=0.8]",   "gs[omega=1.3]", "gs[form=delassus]",
-      "spg", "spg[step=long]",       "spg[step=short]",
+      "gs",  "gs[local=projection]", "gs[omega=0.8]", "gs[omega=1.3]", "gs[form=delassus]",
+      "spg", "spg[step=long]",
   };
   return variants;
 }
@@ -37,7 +37,7 @@ struct SceneExport {
 constexpr std::array<SceneExport, 2> kScenes = {
     {{"column-dry", 300, 20, 20}, {"column-cohesive", 300, 20, 20}}};
 constexpr auto kSceneSolver = "gs";
-constexpr double kSceneBudget_s = 35.0, kSceneLimit_s = 60.0;  // of wall time
+constexpr double kSceneBudget_s = 25.0, kSceneLimit_s = 60.0;  // of wall time
 
 constexpr double kTolerance = 1e-8, kTaskLimit_s = 0.5, kTaskHardLimit_s = 10.0;
 constexpr std::uint64_t kTaskMemory = 2ULL << 30;
@@ -70,8 +70,7 @@ bool simulate_scenes(const std::filesystem::path& folder, Files& files) {
   };
   const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
     if (outcome.output.empty()) {
-      throw problems::OutputError(
-          kScenes[i].scene, outcome.timed_out ? "the simulation is too slow" : outcome.errors);
+      throw problems::OutputError(kScenes[i].scene, "no step exported: " + describe_end(outcome));
     }
     append_lines(outcome.output, files);
   };
