@@ -40,6 +40,12 @@ std::string hex(const Colour& colour) {
                      std::lround(colour[2]));
 }
 
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  return out;
+}
+
 // World to picture.
 class Camera {
  public:
@@ -182,7 +188,7 @@ class Drawing {
       return std::isfinite(p.until_s) && frame_.time_s < p.until_s;
     });
     print("<text x=\"{:.0f}\" y=\"36\" font-weight=\"bold\" fill=\"#263238\">{}</text>\n",
-          kMargin_px, scene_.name);
+          kMargin_px, escaped(scene_.name));
     print("<text x=\"{:.0f}\" y=\"62\" fill=\"#455a64\">t = {:.3f} s{}</text>\n", kMargin_px,
           frame_.time_s, held ? ", held by walls" : "");
     const double left = kWidth_px - kMargin_px - 220.0;
