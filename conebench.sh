@@ -10,15 +10,15 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 build="$here/build"
 packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libfmt-dev libcli11-dev
-  libtomlplusplus-dev nlohmann-json3-dev libssl-dev libbenchmark-dev)
-test_packages=(libgtest-dev libgmock-dev librapidcheck-dev libfclib-dev python3)
+  libtomlplusplus-dev nlohmann-json3-dev libssl-dev libbenchmark-dev libgtest-dev libgmock-dev
+  libfclib-dev python3)
 
 say() { echo "conebench.sh: $*" >&2; }
 
-# Installs those of the named Debian packages that are missing, and says which.
+# Installs those of the Debian packages that are missing, and says which.
 ensure_packages() {
   local missing=() package
-  for package in "$@"; do
+  for package in "${packages[@]}"; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] ||
       missing+=("$package")
   done
@@ -47,20 +47,18 @@ build_targets() {
   ninja -C "$build" "$@" >&2
 }
 
+ensure_packages
 case "${1:-}" in
   test)
-    ensure_packages "${packages[@]}" "${test_packages[@]}"
     build_targets all
     cd "$build"
     exec ctest --output-on-failure "${@:2}"
     ;;
   demo)
-    ensure_packages "${packages[@]}"
     build_targets conebench
     exec "$build/conebench" demo --data "$here/../shared/data" -o "$here/demo-results" "${@:2}"
     ;;
   *)
-    ensure_packages "${packages[@]}"
     build_targets conebench
     exec "$build/conebench" "$@"
     ;;
