@@ -18,7 +18,8 @@ std::vector<std::filesystem::path> export_scene(const std::string& scene, int st
   const dem::Scene loaded = dem::load_scene(scene);
   std::vector<std::filesystem::path> files;
   dem::Simulation simulation(
-      loaded, make_step_solver(variant, loaded.solver.tol, loaded.solver.time_limit_s));
+      loaded, make_step_solver(variant, loaded.solver.tol, loaded.solver.time_limit_s,
+                               loaded.solver.max_iterations));
   dem::Exporter exporter(folder, {.first = first, .stride = stride});
   simulation.add_observer([&](const dem::StepView& view) {
     const auto before = exporter.written();

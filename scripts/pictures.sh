@@ -1,6 +1,6 @@
 #!/bin/sh
 # Draws docs/pictures/collapse.svg anew: the collapse of the dry and of the cohesive column, one
-# beside the other, four moments each. Usage: scripts/pictures.sh [PROGRAM]; needs no other tool.
+# above the other, four moments each. Usage: scripts/pictures.sh [PROGRAM]; needs no other tool.
 set -eu
 
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -25,18 +25,18 @@ other=$(height_of "$work/column-cohesive/frame_000.svg")
 [ "$other" -gt "$row" ] && row=$other
 {
   printf '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 %d %d">\n' \
-    $((2 * width)) $((moments * row))
-  column=0
+    $((moments * width)) $((2 * row))
+  line=0
   for scene in column-dry column-cohesive; do
     moment=0
     while [ $moment -lt $moments ]; do
       picture=$work/$scene/frame_00$moment.svg
       # Names of colours are the document's: each picture gets its own.
-      sed -e "1s/<svg /<svg x=\"$((column * width))\" y=\"$((moment * row))\" width=\"$width\" height=\"$(height_of "$picture")\" /" \
-        -e "s/id=\"/id=\"p$column$moment/g" -e "s/url(#/url(#p$column$moment/g" "$picture"
+      sed -e "1s/<svg /<svg x=\"$((moment * width))\" y=\"$((line * row))\" width=\"$width\" height=\"$(height_of "$picture")\" /" \
+        -e "s/id=\"/id=\"p$line$moment/g" -e "s/url(#/url(#p$line$moment/g" "$picture"
       moment=$((moment + 1))
     done
-    column=$((column + 1))
+    line=$((line + 1))
   done
   printf '</svg>\n'
 } > "$work/collapse.svg"
