@@ -18,7 +18,7 @@ namespace {
 struct SolveOptions {
   std::string file, solver = "gs", solution_file;
   SolveSettings settings;
-  bool json = false, strict = false;
+  bool json = false, curve = false, strict = false;
 };
 
 void print_record(const results::Record& r) {
@@ -55,7 +55,9 @@ int solve(const SolveOptions& options) {
   if (!record) return kInterruptedExit;
   if (options.json) {
     const auto replace = nlohmann::json::error_handler_t::replace;
-    fmt::print("{}\n", to_json(*record).dump(-1, ' ', false, replace));
+    nlohmann::json object = to_json(*record);
+    if (!options.curve) object.erase("curve");
+    fmt::print("{}\n", object.dump(-1, ' ', false, replace));
   } else {
     print_record(*record);
   }
@@ -73,6 +75,7 @@ void add_solve(CLI::App& app, int& exit_code) {
   options->settings.add_to(*verb);
   verb->add_option("-o,--output", options->solution_file, "Write r, u, v to this HDF5 file");
   verb->add_flag("--json", options->json, "Print one JSON object");
+  verb->add_flag("--curve", options->curve, "With --json: (time, iteration, eta) of every look");
   verb->add_flag("--strict", options->strict, "Exit 4 when a claim of success is refuted");
   verb->footer("Exit code: 0 if the verified eta meets the tolerance, 1 if not, 2 bad input.");
   verb->callback([options, &exit_code] { exit_code = solve(*options); });
