@@ -88,6 +88,10 @@ std::string content_sha256(const Problem& problem) {
     hash.add(problem.q());
     hash.add(problem.W());
   }
+  if (!problem.rate_scale_is_of_data()) {
+    hash.add(std::string_view("rate_scale"));
+    hash.add(problem.rate_scale());
+  }
   return hash.hex();
 }
 

@@ -24,13 +24,7 @@ std::optional<double> read_rate_scale(const hdf5::Reader& reader) {
 }
 
 void write_rate_scale(hdf5::Writer& writer, const Problem& problem) {
-  std::vector<Cone> cones(problem.cones().begin(), problem.cones().end());
-  const Problem alone =
-      problem.is_primal()
-          ? Problem(PrimalData{problem.M(), problem.H(), problem.f(), problem.w()},
-                    std::move(cones), problem.metadata())
-          : Problem(ReducedData{problem.W(), problem.q()}, std::move(cones), problem.metadata());
-  if (alone.rate_scale() == problem.rate_scale()) return;
+  if (problem.rate_scale_is_of_data()) return;
   writer.attribute("/", "rate_scale", problem.rate_scale());
 }
 
@@ -52,9 +46,10 @@ std::optional<Solution> read_solution(const hdf5::Reader& reader, const Problem&
   if (!reader.has("/solution/r")) return {};
   Solution solution;
   solution.r = reader.vector("/solution/r", problem.rows());
-  if (solution.r.isZero(0.0)) return {};
-  if (reader.has_attribute("/solution", "shifted") &&
-      reader.whole_number("/solution", "shifted") == 0) {
+  // Foreign files hold zeros where there is no solution; ours says what it means.
+  const bool foreign = !reader.has_attribute("/solution", "shifted");
+  if (foreign && solution.r.isZero(0.0)) return {};
+  if (!foreign && reader.whole_number("/solution", "shifted") == 0) {
     solution.r += problem.tip_shift();
   }
   if (reader.has("/solution/u")) solution.u = reader.vector("/solution/u", problem.rows());

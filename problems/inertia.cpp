@@ -66,6 +66,13 @@ Inertia::Inertia(const SparseMatrix& M, std::string_view subject) {
   std::vector<int> local(component_of_.size(), -1);
   for (int component = 0; component < component_count_; ++component) {
     const std::span<const int> dofs = members[component];
+    if (dofs.size() == 1) {
+      const double diagonal = M.coeff(dofs[0], dofs[0]);
+      require(diagonal > 0.0, subject, "M(", dofs[0], ", ", dofs[0], ") is ", diagonal,
+              ", so M is not positive definite, expected > 0");
+      root.emplace_back(dofs[0], dofs[0], 1.0 / std::sqrt(diagonal));
+      continue;
+    }
     if (dofs.size() <= kLargestBlock) {
       append_inverse_root(M, dofs, local, subject, root);
       continue;

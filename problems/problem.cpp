@@ -162,7 +162,7 @@ Problem::Problem(PrimalData data, std::vector<Cone> cones, Metadata metadata,
       primal_mobility(operators->H, operators->inertia->inverse_root(), operators->start);
   operators_ = std::move(operators);
   q_ = H() * inertia().solve(f_) + w_;
-  rate_scale_ = rate_scale.value_or(0.0) > 0.0 ? *rate_scale : compute_rate_scale();
+  set_rate_scale(rate_scale);
 }
 
 Problem::Problem(ReducedData data, std::vector<Cone> cones, Metadata metadata,
@@ -179,9 +179,15 @@ Problem::Problem(ReducedData data, std::vector<Cone> cones, Metadata metadata,
   const double skew = asymmetry(operators->W);
   require(skew <= kLargestAsymmetry, name(), "|W - W^T| / |W| is ", skew, ", expected at most ",
           kLargestAsymmetry, ": W symmetric up to rounding of the program that wrote it");
+  const Eigen::VectorXd diagonal = operators->W.diagonal();
+  const double lowest = rows > 0 ? -1e-12 * diagonal.maxCoeff() : 0.0;
+  for (Eigen::Index row = 0; row < diagonal.size(); ++row) {
+    require(diagonal(row) >= lowest, name(), "W(", row, ", ", row, ") is ", diagonal(row),
+            ", expected >= 0: W positive semidefinite");
+  }
   operators->mobility = reduced_mobility(operators->W, operators->start);
   operators_ = std::move(operators);
-  rate_scale_ = rate_scale.value_or(0.0) > 0.0 ? *rate_scale : compute_rate_scale();
+  set_rate_scale(rate_scale);
 }
 
 Problem Problem::with_metadata(Metadata metadata) const {
@@ -283,7 +289,14 @@ Problem Problem::shifted() const {
     standard.q_ = q_ - W() * shift;
   }
   for (Cone& cone : standard.cones_) cone.kappa = 0.0;
+  standard.set_rate_scale(rate_scale_);
   return standard;
+}
+
+void Problem::set_rate_scale(std::optional<double> given) {
+  const double of_data = compute_rate_scale();
+  rate_scale_ = given.value_or(0.0) > 0.0 ? *given : of_data;
+  rate_scale_is_of_data_ = rate_scale_ == of_data;
 }
 
 double Problem::compute_rate_scale() const {

@@ -19,13 +19,13 @@ struct Island;
 /// Where a problem comes from and in which units it speaks. Free text is kept as it was given.
 struct Metadata {
   std::string name = "unnamed";  ///< unique in a collection, e.g. "column-dry_000420"
-  std::string engine;            ///< "dem", "mpm", or the program that made the file
-  std::string scene;
+  std::string engine{};          ///< "dem", "mpm", or the program that made the file
+  std::string scene{};
   std::int64_t step = 0;
   double step_size_s = 0.0;        ///< 0 when unknown
   std::string force_unit = "N s";  ///< unit of r and kappa
   std::string rate_unit = "m/s";   ///< unit of u and w
-  std::string origin;              ///< e.g. the file it was imported from
+  std::string origin{};            ///< e.g. the file it was imported from
   double sampling_weight = 1.0;    ///< how many steps of its scene it stands for
 };
 
@@ -53,7 +53,8 @@ struct ReducedData {
 /// Units   r in force_unit, u in rate_unit, W in rate_unit / force_unit (metadata()).
 /// Cost    construction factorises M once; copies and shifted() share matrices and factor.
 /// Errors  InputError naming the problem when a size, sign, value or symmetry is wrong, so that
-///         no solver has to check. Immutable afterwards; safe to read from several threads.
+///         no solver has to check. That W is positive semidefinite is not checked beyond its
+///         diagonal. Immutable afterwards; safe to read from several threads.
 class Problem {
  public:
   /// |W - W^T|_F / |W|_F above which W is refused. Real files of capsules reach 0.012.
@@ -103,6 +104,9 @@ class Problem {
   /// U: the violation at r = 0 that eta is measured against, from the unshifted data. Kept by
   /// shifted() and by islands(). [rate_unit]
   double rate_scale() const { return rate_scale_; }
+  /// False when the data as they stand (a shifted problem's, an island's) would give another U; a
+  /// file then carries U, and it counts as content.
+  bool rate_scale_is_of_data() const { return rate_scale_is_of_data_; }
 
   /// True when every kappa is 0.
   bool is_standard() const;
@@ -126,12 +130,14 @@ class Problem {
 
   void check_rows(Eigen::Index rows) const;
   double compute_rate_scale() const;
+  void set_rate_scale(std::optional<double> given);
 
   std::shared_ptr<const Operators> operators_;
   Eigen::VectorXd f_, w_, q_;
   std::vector<Cone> cones_;
   Metadata metadata_;
   double rate_scale_ = 0.0;
+  bool rate_scale_is_of_data_ = true;
 };
 
 /// A connected component of a problem.

@@ -38,8 +38,10 @@ Vector natural_map(const Cone& cone, double lambda, const Vector& r, const Vecto
 template <class Vector>
 double natural_error(const Cone& cone, double lambda, const Vector& r, Vector u) {
   add_de_saxce(cone.theta, u);
-  if (!(lambda > 0.0)) {  // W = 0: only the sign conditions are left
-    return natural_map(cone, 1e-300, r, u).norm() * 1e-300;
+  if (!(lambda > 0.0)) {  // W = 0: the limit, how far u_hat is from the dual cone
+    u = -u;
+    project(cone.mu, u);
+    return u.norm();
   }
   return lambda * natural_map(cone, lambda, r, u).norm();
 }
@@ -111,7 +113,7 @@ double fischer_burmeister_square(const Cone& cone, const Small& r, const Small& 
   Eigen::VectorXd x = r, y = u_hat;
   if (cone.mu > 0.0) {
     x(0) *= cone.mu;
-    y(0) /= cone.mu;
+    y.tail(y.size() - 1) *= cone.mu;
     return fischer_burmeister(x, y).squaredNorm();
   }
   const double scalar = r(0) + u_hat(0) - std::hypot(r(0), u_hat(0));
@@ -210,8 +212,8 @@ Residual evaluate_residual(const Problem& standard, const Eigen::VectorXd& r) {
   const double q_size = standard.q().norm();
   result.fclib = natural / std::max(q_size, 1e-300);
   result.siconos = natural / std::max({q_size, r.norm(), u.norm(), 1e-300});
-  result.fischer_burmeister = fb_square / cones;
-  result.alart_curnier = ac_square / cones;
+  result.fischer_burmeister = fb_square / (1.0 + cones);
+  result.alart_curnier = ac_square / (1.0 + cones);
   result.penetration_rate = measure(std::move(penetration));
   result.cone_violation = measure(std::move(violation));
   result.tension = measure(std::move(tension));

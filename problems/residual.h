@@ -25,10 +25,13 @@ struct Residual {
   bool finite = true;  ///< false when r' or u holds a NaN or an infinity; then eta.max is infinite
 
   /// Other programs' stopping tests, for comparison with published figures. All with unit step:
-  double fclib = 0.0;               ///< |r' - P_K(r' - u_hat)|_2 / |q'|_2 (RR-9118)
-  double siconos = 0.0;             ///< the same over max(|q'|, |r'|, |u|)
-  double fischer_burmeister = 0.0;  ///< mean square of the Jordan-algebra FB function (So-bogus)
-  double alart_curnier = 0.0;       ///< mean square of the Alart-Curnier function (So-bogus)
+  double fclib = 0.0;    ///< |r' - P_K(r' - u_hat)|_2 / |q'|_2 (RR-9118)
+  double siconos = 0.0;  ///< the same over max(|q'|, |r'|, |u|)
+  /// So-bogus' tests without its scaling of r: sum over the cones of |phi_i|^2, over 1 + cones,
+  /// with phi of Fischer-Burmeister in x = (mu r_n, r_t), y = (u_hat_n, mu u_t), or of
+  /// Alart-Curnier.
+  double fischer_burmeister = 0.0;
+  double alart_curnier = 0.0;
 
   /// Physical parts.
   Measure penetration_rate;  ///< max(0, -u_n) [rate_unit]

@@ -3,8 +3,24 @@
 #include <vector>
 
 namespace conebench::problems {
+namespace {
+
+bool is_canonical(const SparseMatrix& matrix) {
+  if (!matrix.isCompressed()) return false;
+  for (int row = 0; row < matrix.outerSize(); ++row) {
+    Eigen::Index last = -1;
+    for (SparseMatrix::InnerIterator it(matrix, row); it; ++it) {
+      if (it.value() == 0.0 || it.col() <= last) return false;
+      last = it.col();
+    }
+  }
+  return true;
+}
+
+}  // namespace
 
 SparseMatrix canonical(const SparseMatrix& matrix) {
+  if (is_canonical(matrix)) return matrix;
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(static_cast<std::size_t>(matrix.nonZeros()));
   for (int row = 0; row < matrix.outerSize(); ++row) {

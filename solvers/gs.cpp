@@ -248,7 +248,10 @@ Result iterate(const Problem& problem, const Settings& settings, Coupling coupli
       next_own_look = result.iterations + 1 + result.iterations / 10;
     }
     if (change <= kNoProgress * size) {
-      result.status = monitor.conclude(Status::kStalled, result.iterations, r);
+      const bool solved =
+          stop.test == StopTest::kOwn && problems::evaluate_eta(problem, r) <= stop.tol;
+      result.status =
+          monitor.conclude(solved ? Status::kConverged : Status::kStalled, result.iterations, r);
       break;
     }
   }

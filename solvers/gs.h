@@ -8,7 +8,7 @@ namespace conebench::solvers {
 ///
 /// A sweep does, for each cone i in order, with u_i the rate at the current r,
 ///
-///   q_i = u_i - B_i r_i,   r_i <- (1 - omega) r_i + omega local(B_i, q_i),   [projected: omega >
+///   q_i = u_i - B_i r_i,   r_i <- (1 - omega) r_i + omega local(B_i, q_i),   [projected if
 ///   1]
 ///
 /// where B_i = sym(W_ii), plus regularization lambda_i I where its smallest eigenvalue is below

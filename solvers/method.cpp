@@ -1,5 +1,7 @@
 #include "solvers/method.h"
 
+#include <fmt/format.h>
+
 #include "problems/error.h"
 
 namespace conebench::solvers {
@@ -23,6 +25,13 @@ Result unsupported(const Problem& problem, std::string why) {
   return result;
 }
 
+void note_asymmetry(const Problem& problem, Result& result) {
+  const double asymmetry = problems::asymmetry(problem.W());
+  if (asymmetry <= 1e-12) return;
+  result.notes.push_back(fmt::format(
+      "|W - W^T| / |W| = {:.2g}: u = W r + q as given, symmetric parts within a cone", asymmetry));
+}
+
 }  // namespace
 
 Solver make_checked_solver(const Method& method, const Values& values, Refuses refuses,
@@ -38,6 +47,7 @@ Solver make_checked_solver(const Method& method, const Values& values, Refuses r
     result.setup_s = monitor.setup_s();
     result.solve_s = monitor.elapsed_s() - monitor.setup_s();
     if (monitor.best().size() > 0 || problem.rows() == 0) result.r = monitor.best();
+    if (!problem.is_primal()) note_asymmetry(problem, result);
     return result;
   };
   return {identity(method, values), method.kind, method.parameters, std::move(refuses),

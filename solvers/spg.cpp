@@ -76,8 +76,8 @@ class Iteration {
     if (iteration % kIterationsPerRefresh == 0 && iteration > 0) u_ = problem_.rate(r_);
     // A subproblem solved to rounding before its time is over is refreshed at once.
     const bool fresh = still_ || iteration % settings_.refresh == 0;
-    if (fresh) refresh_de_saxce();
-    const Eigen::VectorXd gradient = shifted_rate();
+    if (fresh) theta_s_ = de_saxce();
+    const Eigen::VectorXd gradient = shifted_rate(theta_s_);
     const Eigen::VectorXd d = projected_step(gradient, alpha_);
     const Eigen::VectorXd Wd = problem_.apply_delassus(d);
     const double slope = gradient.dot(d), curvature = d.dot(Wd);
@@ -94,9 +94,8 @@ class Iteration {
   }
 
   // max lambda_i |r_i - P_K(r_i - u_hat_i / lambda_i)| with the De Saxce term of the current u.
-  double natural_residual() {
-    refresh_de_saxce();
-    return size_as_rate(projected_step(shifted_rate(), 1.0));
+  double natural_residual() const {
+    return size_as_rate(projected_step(shifted_rate(de_saxce()), 1.0));
   }
 
  private:
@@ -114,15 +113,18 @@ class Iteration {
     }
   }
 
-  void refresh_de_saxce() {
+  // theta_i |u_it| of the current iterate.
+  Eigen::VectorXd de_saxce() const {
+    Eigen::VectorXd theta_s(problem_.cone_count());
     for (int i = 0; i < problem_.cone_count(); ++i) {
-      theta_s_(i) = cone(i).theta * u_.segment(problem_.start(i) + 1, cone(i).dim - 1).norm();
+      theta_s(i) = cone(i).theta * u_.segment(problem_.start(i) + 1, cone(i).dim - 1).norm();
     }
+    return theta_s;
   }
 
-  Eigen::VectorXd shifted_rate() const {
+  Eigen::VectorXd shifted_rate(const Eigen::VectorXd& theta_s) const {
     Eigen::VectorXd u_hat = u_;
-    for (int i = 0; i < problem_.cone_count(); ++i) u_hat(problem_.start(i)) += theta_s_(i);
+    for (int i = 0; i < problem_.cone_count(); ++i) u_hat(problem_.start(i)) += theta_s(i);
     return u_hat;
   }
 
@@ -142,7 +144,7 @@ class Iteration {
     return n;
   }
 
-  // f_s(r + t d) = f + t slope + t^2 curvature / 2, exactly.
+  // f_s(r + t d) = f + t slope + t^2 curvature / 2, exactly where W is symmetric.
   double line_search(double f, double slope, double curvature) const {
     const double reference = history_.largest(theta_s_);
     double t = 1.0;

@@ -7,10 +7,11 @@
 namespace conebench::solvers {
 
 /// A root of f in [low, high] with f(low) and f(high) of opposite sign, to the last bit or two:
-/// secant steps that keep the bracket (Illinois), a bisection whenever they fail to halve it.
+/// secant steps that keep the bracket (Illinois), and a bisection every third step.
 template <class Function>
 double bracketed_root(const Function& f, double low, double high) {
   double f_low = f(low), f_high = f(high);
+  int kept = 0;  // > 0: how often in a row the low end was kept; < 0: the high end
   if (f_low == 0.0) return low;
   if (f_high == 0.0) return high;
   for (int step = 0; step < 200; ++step) {
@@ -23,11 +24,13 @@ double bracketed_root(const Function& f, double low, double high) {
     if ((fx > 0.0) == (f_high > 0.0)) {
       high = x;
       f_high = fx;
-      f_low *= 0.5;
+      kept = std::max(kept, 0) + 1;
+      if (kept > 1) f_low *= 0.5;
     } else {
       low = x;
       f_low = fx;
-      f_high *= 0.5;
+      kept = std::min(kept, 0) - 1;
+      if (kept < -1) f_high *= 0.5;
     }
   }
   return std::abs(f(low)) < std::abs(f(high)) ? low : high;

@@ -13,6 +13,8 @@ constexpr double kZeroEigenvalue = 4e-15;
 constexpr double kZeroDiagonal = 1e-16;
 // q counts as in range(W) when its part in null(W) is below this share of it.
 constexpr double kInRange = 1e-14;
+// Beyond this multiple of the eigenvalues, a slide is an opening.
+constexpr double kOpenWithinRounding = 1e17;
 // psi varies on the scale of a itself, so Newton's error after a step of this relative size is
 // about its square: rounding.
 constexpr double kQuadratic = 1e-8;
@@ -216,9 +218,15 @@ bool ExactLocal<D>::slide_dilating(const Reduced& p, double& a, Tangent& rt, dou
   double low = sign > 0.0 ? 1e-300 : std::max(pole, 1e-300), high = pole;
   if (sign < 0.0) {
     high = std::max({2.0 * pole, s_.size() > 0 ? s_.maxCoeff() : 0.0, 1e-30});
-    for (int k = 0; k < 2000 && mismatch(high) <= 0.0; ++k) high *= 2.0;
+    const double largest = kOpenWithinRounding * high;
+    while (high < largest && mismatch(high) <= 0.0) high *= 2.0;
+    if (mismatch(high) <= 0.0) {  // a -> inf is r -> 0: open, up to rounding
+      rt.setZero();
+      rn = 0.0;
+      return true;
+    }
   }
-  if (sign > 0.0 ? mismatch(low) <= 0.0 : mismatch(high) <= 0.0) return false;
+  if (sign > 0.0 && mismatch(low) <= 0.0) return false;
   if (sign > 0.0 ? mismatch(high) > 0.0 : mismatch(low) > 0.0) return false;
   a = bracketed_root(mismatch, low, high);
   evaluate(a);

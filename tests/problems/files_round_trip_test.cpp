@@ -9,7 +9,7 @@ namespace {
 
 using RoundTrip = Files;
 
-// The same numbers to the last bit: the hash covers them all but metadata and rate_scale.
+// The same numbers to the last bit: the hash covers them all but metadata.
 void expect_same(const Problem& found, const Problem& expected) {
   EXPECT_EQ(content_sha256(found), content_sha256(expected));
   EXPECT_EQ(found.rate_scale(), expected.rate_scale());

@@ -110,6 +110,8 @@ TEST(Problem, ShiftMovesTheTipAndKeepsRatesAndScale) {
   const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.rows(), -1.0, 2.0);
   EXPECT_LE((standard.rate(r + problem.tip_shift()) - problem.rate(r)).norm(), 1e-12);
   EXPECT_EQ(standard.rate_scale(), problem.rate_scale());
+  EXPECT_TRUE(problem.rate_scale_is_of_data());
+  EXPECT_FALSE(standard.rate_scale_is_of_data());
 }
 
 // Formulation 2 by hand: one unit mass pushed into the ground at 3 m/s, mu = 0, kappa = 2 N s.

@@ -157,6 +157,14 @@ TEST(Residual, DoesNotChangeWithUnitsOrTheTangentFrame) {
   EXPECT_NEAR(evaluate_eta(turned.shifted(), turn * r), eta, 1e-12 * eta);
 }
 
+// W = 0: nothing can be done, and eta at r = 0 is the whole violation.
+TEST(Residual, IsOneWhereNothingMoves) {
+  const Problem stuck(PrimalData{sparse(Eigen::Matrix3d::Identity()), SparseMatrix(3, 3),
+                                 Eigen::Vector3d::Zero(), Eigen::Vector3d(-2.0, 0.0, 0.0)},
+                      {Cone::coulomb(3, 0.5)}, {});
+  EXPECT_DOUBLE_EQ(evaluate_eta(stuck, Eigen::Vector3d::Zero()), 1.0);
+}
+
 TEST(Residual, IsInfiniteForANaN) {
   const SlidingBlock block;
   Eigen::Vector3d r = block.r;

@@ -76,6 +76,24 @@ TEST(ExactLocal, SolvesSingularBlocksOrIsProvedRightThatItCannot) {
   }
 }
 
+// q_n just short of (mu - theta)|q_t|: a slide so small that rounding cannot tell it from opening.
+TEST(ExactLocal, SolvesWhatIsOpenUpToRounding) {
+  std::mt19937_64 random(3);
+  for (const double short_by : {1e-17, 1e-16, 3e-16, 1e-15, 1e-12, 1e-6}) {
+    for (int k = 0; k < 500; ++k) {
+      const Eigen::Matrix3d W = random_block(random, 3, Conditioning::kGood);
+      Eigen::Vector3d q = random_rate(random, W, Conditioning::kGood);
+      q(0) = (0.5 - 0.1) * q.tail<2>().norm() * (1.0 - short_by);
+      ExactLocal<3> local;
+      local.set(W, largest_eigenvalue(W), 0.5, 0.1);
+      Eigen::Vector3d r = Eigen::Vector3d::Ones();
+      double a = 0.0;
+      ASSERT_NE(local.solve(q, r, a), LocalCase::kNoSolution) << short_by;
+      EXPECT_LE(backward_residual(W, q, 0.5, 0.1, r), 1e-12) << short_by;
+    }
+  }
+}
+
 // 2 kg block on a slope, one step of 0.01 s from rest: the closed form of a first course.
 Eigen::Vector3d block_on_slope(double slope_rad, double mu, LocalCase& found) {
   ExactLocal<3> local;
