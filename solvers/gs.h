@@ -9,7 +9,7 @@ namespace conebench::solvers {
 /// A sweep does, for each cone i in order, with u_i the rate at the current r,
 ///
 ///   q_i = u_i - B_i r_i,   r_i <- (1 - omega) r_i + omega local(B_i, q_i),   [projected if
-///   1]
+///   omega != 1]
 ///
 /// where B_i = sym(W_ii), plus regularization lambda_i I where its smallest eigenvalue is below
 /// regularization lambda_i: with the same B_i in q_i, fixed points stay exact solutions.

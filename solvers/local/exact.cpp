@@ -13,6 +13,9 @@ constexpr double kZeroEigenvalue = 4e-15;
 constexpr double kZeroDiagonal = 1e-16;
 // q counts as in range(W) when its part in null(W) is below this share of it.
 constexpr double kInRange = 1e-14;
+// With theta < mu, a cone this close to opening, as a share of |q|, is open: the slide's equation
+// would be made of rounding, while r = 0 is wrong by no more than the gap.
+constexpr double kOpenGap = 1e-13;
 // Beyond this multiple of the eigenvalues, a slide is an opening.
 constexpr double kOpenWithinRounding = 1e17;
 // psi varies on the scale of a itself, so Newton's error after a step of this relative size is
@@ -241,7 +244,8 @@ template <int D>
 LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) const {
   const Eigen::Index tangents = q.size() - 1;
   const double qn = q(0);
-  if (qn >= (mu_ - theta_) * q.tail(tangents).norm()) {
+  const double opening = (mu_ - theta_) * q.tail(tangents).norm();
+  if (qn >= opening || (theta_ < mu_ && qn >= opening - kOpenGap * q.norm())) {
     r.setZero();
     return LocalCase::kOpen;
   }
