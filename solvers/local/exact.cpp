@@ -12,7 +12,7 @@ namespace {
 constexpr double kZeroEigenvalue = 4e-15;
 constexpr double kZeroDiagonal = 1e-16;
 // q counts as in range(W) when its part in null(W) is below this share of it.
-constexpr double kInRange = 1e-14;
+constexpr double kInRange = 1e-13;
 // With theta < mu, a cone this close to opening, as a share of |q|, is open: the slide's equation
 // would be made of rounding, while r = 0 is wrong by no more than the gap.
 constexpr double kOpenGap = 1e-13;
@@ -261,12 +261,12 @@ LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) c
   p.qn = qn;
   p.push = Wnn_ > 0.0 ? -qn / Wnn_ : 0.0;
   p.b.noalias() = Q_.transpose() * q.tail(tangents);
-  const double size = p.b.norm() + w_.norm() * std::abs(qn);
   p.b -= w_ * qn;
   p.in_range = true;
   for (Eigen::Index k = 0; k < tangents; ++k) {
     if (s_(k) > 0.0) continue;
-    if (std::abs(p.b(k)) <= kInRange * size) p.b(k) = 0.0;
+    // b_k is q along the null vector (-w_k, e_k).
+    if (std::abs(p.b(k)) <= kInRange * q.norm() * std::sqrt(1.0 + w_(k) * w_(k))) p.b(k) = 0.0;
     p.in_range = p.in_range && p.b(k) == 0.0;
   }
 
