@@ -28,7 +28,7 @@ struct EnergyLedger {
   double relative_closure() const;
 };
 
-/// Of all free spheres; potential is zero at the origin of the scene.
+/// Of all spheres (fixed ones do not move), and of the free ones: zero at the origin of the scene.
 double kinetic_energy(const Spheres& spheres);
 double potential_energy(const Scene& scene, const Spheres& spheres);
 

@@ -170,10 +170,10 @@ void refuse_overlaps(const Scene& scene, std::string_view subject, CellList& cel
                      const Spheres& spheres) {
   const auto overlaps = find_overlaps(scene, spheres, kOverlapTolerance, cells);
   if (overlaps.empty()) return;
-  const Overlap& worst = overlaps.front();
-  const bool with_plane = worst.plane >= 0;
-  problems::require(false, subject, "body ", worst.first, " and ", with_plane ? "plane " : "body ",
-                    with_plane ? worst.plane : worst.second, " overlap by ", worst.depth,
+  const Overlap& found = overlaps.front();
+  const bool with_plane = found.plane >= 0;
+  problems::require(false, subject, "body ", found.first, " and ", with_plane ? "plane " : "body ",
+                    with_plane ? found.plane : found.second, " overlap by ", found.depth,
                     " m, expected at most ", kOverlapTolerance,
                     " of the radius (or resolve = true)");
 }

@@ -39,8 +39,7 @@ class View {
  private:
   void write_info() {
     const Metadata& metadata = problem_.metadata();
-    const std::string cohesion =
-        "cohesion is shifted into f (or q): r here is r + kappa e_n, kappa is in /problem";
+    const std::string cohesion = "cohesion is shifted into f (or q): r here is r + kappa e_n";
     writer_.group(root_ + "/info");
     writer_.scalar(root_ + "/info/title", std::string_view(metadata.name));
     writer_.scalar(root_ + "/info/description",
