@@ -10,7 +10,7 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 build="$here/build"
 packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libfmt-dev libcli11-dev
-  libtomlplusplus-dev nlohmann-json3-dev libssl-dev libbenchmark-dev libgtest-dev libgmock-dev
+  libtomlplusplus-dev libsuitesparse-dev coinor-libipopt-dev libnlopt-dev nlohmann-json3-dev libssl-dev libbenchmark-dev libgtest-dev libgmock-dev
   libfclib-dev python3)
 
 say() { echo "conebench.sh: $*" >&2; }

@@ -10,3 +10,18 @@ pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
 if(CONEBENCH_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
+find_package(NLopt REQUIRED)
+pkg_check_modules(ipopt REQUIRED IMPORTED_TARGET ipopt)
+
+# The parts of SuiteSparse that are GPL: supernodal CHOLMOD, UMFPACK, SPQR. Without them Eigen's own
+# sparse factorisations serve.
+add_library(conebench_suitesparse INTERFACE)
+if(CONEBENCH_SUITESPARSE)
+  find_path(SUITESPARSE_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+  target_include_directories(conebench_suitesparse SYSTEM INTERFACE ${SUITESPARSE_INCLUDE})
+  foreach(name cholmod umfpack spqr)
+    find_library(SUITESPARSE_${name} ${name} REQUIRED)
+    target_link_libraries(conebench_suitesparse INTERFACE ${SUITESPARSE_${name}})
+  endforeach()
+  target_compile_definitions(conebench_suitesparse INTERFACE CONEBENCH_SUITESPARSE)
+endif()

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "solvers/block_diagonal.h"
+
+namespace conebench::solvers {
+
+/// Solves (A + B W) x = b for block diagonal A and B: the Newton systems of methods whose
+/// generalised Jacobian is not symmetric.
+///
+/// kReduced  factorises A + B W itself (rows() unknowns, W assembled).
+/// kFull     factorises [M, -H^T; B H, A] (dofs() + rows() unknowns, W never formed). Primal only.
+/// kAuto     kFull where it is possible and W has more nonzeros than M, H and H^T together.
+/// Pattern analysed once, at construction.
+class GeneralSystem {
+ public:
+  enum class Form { kAuto, kReduced, kFull };
+
+  /// Precondition: a primal problem when `form` is kFull.
+  GeneralSystem(const problems::Problem& problem, Form form);
+  ~GeneralSystem();
+
+  /// False when the matrix is singular to working precision; solve() must not be called then.
+  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B);
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Reduced;
+  struct Full;
+  std::unique_ptr<Reduced> reduced_;
+  std::unique_ptr<Full> full_;
+};
+
+}  // namespace conebench::solvers

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+
+namespace conebench::solvers {
+
+/// Sparse LU of square matrices that share one pattern: UMFPACK where SuiteSparse's GPL parts are
+/// built in, else Eigen's SparseLU.
+class Lu {
+ public:
+  using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+
+  Lu();
+  ~Lu();
+  Lu(Lu&&) noexcept;
+
+  /// Orders and analyses once.
+  void analyse(const Matrix& matrix);
+  /// False when the matrix is singular to working precision. `matrix` must live until the last
+  /// solve().
+  bool factorize(const Matrix& matrix);
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+};
+
+}  // namespace conebench::solvers

@@ -1,0 +1,241 @@
+#include "solvers/linear/normal_system.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "solvers/blocked_rows.h"
+#include "solvers/linear/cholesky.h"
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Problem;
+using problems::SparseMatrix;
+using Matrix = Cholesky::Matrix;
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+// The rows of H cone by cone: which dofs a cone touches, and its dense block on them.
+class ConeRows {
+ public:
+  explicit ConeRows(const Problem& problem) {
+    begin_.push_back(0);
+    value_begin_.push_back(0);
+    const SparseMatrix& H = problem.H();
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
+      const auto first = static_cast<std::ptrdiff_t>(dofs_.size());
+      for (int row = problem.start(i); row < problem.start(i) + dim; ++row) {
+        for (SparseMatrix::InnerIterator it(H, row); it; ++it) {
+          dofs_.push_back(static_cast<int>(it.col()));
+        }
+      }
+      std::sort(dofs_.begin() + first, dofs_.end());
+      dofs_.erase(std::unique(dofs_.begin() + first, dofs_.end()), dofs_.end());
+      const auto count = static_cast<Eigen::Index>(dofs_.size()) - first;
+      Eigen::MatrixXd block = Eigen::MatrixXd::Zero(dim, count);
+      for (int row = 0; row < dim; ++row) {
+        for (SparseMatrix::InnerIterator it(H, problem.start(i) + row); it; ++it) {
+          const auto at = std::lower_bound(dofs_.begin() + first, dofs_.end(), it.col());
+          block(row, at - dofs_.begin() - first) = it.value();
+        }
+      }
+      values_.insert(values_.end(), block.data(), block.data() + block.size());
+      begin_.push_back(dofs_.size());
+      value_begin_.push_back(values_.size());
+    }
+  }
+
+  std::span<const int> dofs(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    return {dofs_.data() + begin_[k], begin_[k + 1] - begin_[k]};
+  }
+  Eigen::Map<const Eigen::MatrixXd> block(int i) const {
+    const auto k = static_cast<std::size_t>(i);
+    const auto columns = static_cast<Eigen::Index>(begin_[k + 1] - begin_[k]);
+    const auto size = static_cast<Eigen::Index>(value_begin_[k + 1] - value_begin_[k]);
+    return {values_.data() + value_begin_[k], columns == 0 ? 0 : size / columns, columns};
+  }
+
+ private:
+  std::vector<std::size_t> begin_, value_begin_;
+  std::vector<int> dofs_;
+  std::vector<double> values_;
+};
+
+// Lower triangle of the pattern of M + H^T E H with zeros stored, M's values added later.
+Matrix pattern(const Problem& problem, const ConeRows& rows) {
+  const int dofs = problem.dofs();
+  std::vector<std::vector<int>> columns(static_cast<std::size_t>(dofs));
+  auto settle = [](std::vector<int>& column) {
+    std::sort(column.begin(), column.end());
+    column.erase(std::unique(column.begin(), column.end()), column.end());
+  };
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const auto touched = rows.dofs(i);
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+      auto& column = columns[static_cast<std::size_t>(touched[k])];
+      column.insert(column.end(), touched.begin() + static_cast<std::ptrdiff_t>(k), touched.end());
+      if (column.size() > 512) settle(column);
+    }
+  }
+  for (int row = 0; row < dofs; ++row) {
+    for (SparseMatrix::InnerIterator it(problem.M(), row); it; ++it) {
+      if (it.col() <= row) columns[static_cast<std::size_t>(it.col())].push_back(row);
+    }
+  }
+  Matrix lower(dofs, dofs);
+  std::size_t nonzeros = 0;
+  for (auto& column : columns) {
+    settle(column);
+    nonzeros += column.size();
+  }
+  lower.reserve(static_cast<Eigen::Index>(nonzeros));
+  for (int j = 0; j < dofs; ++j) {
+    lower.startVec(j);
+    for (const int row : columns[static_cast<std::size_t>(j)]) lower.insertBack(row, j) = 0.0;
+  }
+  lower.finalize();
+  return lower;
+}
+
+// Adds the lower triangle of `dense` at rows and columns `dofs`, all of which are stored.
+void add_lower(std::span<const int> dofs, const Eigen::MatrixXd& dense, Matrix& lower) {
+  for (std::size_t j = 0; j < dofs.size(); ++j) {
+    int at = lower.outerIndexPtr()[dofs[j]];
+    for (std::size_t i = j; i < dofs.size(); ++i) {
+      while (lower.innerIndexPtr()[at] < dofs[i]) ++at;
+      lower.valuePtr()[at] += dense(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+  }
+}
+
+}  // namespace
+
+struct NormalSystem::Primal {
+  explicit Primal(const Problem& given)
+      : problem(given), rows(given), E(given), matrix(pattern(given, rows)), mass(matrix) {
+    for (int row = 0; row < problem.dofs(); ++row) {
+      for (SparseMatrix::InnerIterator it(problem.M(), row); it; ++it) {
+        if (it.col() <= row) mass.coeffRef(row, it.col()) = it.value();
+      }
+    }
+    cholesky.analyse(matrix);
+  }
+
+  bool factorize(const BlockDiagonal& scaling) {
+    E = scaling;
+    matrix.coeffs() = mass.coeffs();
+    Eigen::MatrixXd EH, dense;
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      if (scaling[i].isZero(0.0)) continue;
+      EH.noalias() = scaling[i] * rows.block(i);
+      dense.noalias() = rows.block(i).transpose() * EH;
+      add_lower(rows.dofs(i), dense, matrix);
+    }
+    return cholesky.factorize(matrix);
+  }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
+    const Eigen::VectorXd y = cholesky.solve(problem.H().transpose() * b);
+    return b - E * (problem.H() * y);
+  }
+
+  const Problem& problem;
+  ConeRows rows;
+  BlockDiagonal E;
+  Matrix matrix, mass;
+  Cholesky cholesky;
+};
+
+struct NormalSystem::Reduced {
+  explicit Reduced(const Problem& given) : problem(given), W(given), G(given) {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
+      for (int row = problem.start(i); row < problem.start(i) + dim; ++row) {
+        entries.emplace_back(row, row, 0.0);
+      }
+      for_lower_blocks(i, [&](int column, const auto& block) {
+        for (Eigen::Index b = 0; b < block.cols(); ++b) {
+          for (Eigen::Index a = 0; a < block.rows(); ++a) {
+            entries.emplace_back(problem.start(i) + static_cast<int>(a),
+                                 column + static_cast<int>(b), 0.0);
+          }
+        }
+      });
+    }
+    matrix.resize(problem.rows(), problem.rows());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    cholesky.analyse(matrix);
+  }
+
+  // Blocks W_ij, j <= i: function(first column, block).
+  template <class Function>
+  void for_lower_blocks(int i, const Function& function) const {
+    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
+    const double* block = W.blocks(i);
+    for (const auto& entry : W.entries(i)) {
+      if (entry.row > problem.start(i)) break;
+      function(entry.row, Eigen::Map<const RowMajorMatrix>(block, dim, entry.dim));
+      block += dim * entry.dim;
+    }
+  }
+
+  bool factorize(const BlockDiagonal& E) {
+    std::vector<int> cone_at(static_cast<std::size_t>(problem.rows()), 0);
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      cone_at[static_cast<std::size_t>(problem.start(i))] = i;
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(E[i]);
+      G[i] = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
+             eigen.eigenvectors().transpose();
+    }
+    matrix.coeffs().setZero();
+    for (int row = 0; row < problem.rows(); ++row) matrix.coeffRef(row, row) = 1.0;
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      for_lower_blocks(i, [&](int column, const auto& block) {
+        const int j = cone_at[static_cast<std::size_t>(column)];
+        Eigen::MatrixXd scaled = G[i] * block * G[j];
+        if (i == j) scaled = (0.5 * (scaled + scaled.transpose())).eval();
+        for (Eigen::Index b = 0; b < scaled.cols(); ++b) {
+          for (Eigen::Index a = i == j ? b : 0; a < scaled.rows(); ++a) {
+            matrix.coeffRef(problem.start(i) + a, column + b) += scaled(a, b);
+          }
+        }
+      });
+    }
+    return cholesky.factorize(matrix);
+  }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
+    return b - G * cholesky.solve(G * problem.apply_delassus(b));
+  }
+
+  const Problem& problem;
+  BlockedDelassus W;
+  BlockDiagonal G;
+  Matrix matrix;
+  Cholesky cholesky;
+};
+
+NormalSystem::NormalSystem(const Problem& problem) {
+  if (problem.is_primal()) {
+    primal_ = std::make_unique<Primal>(problem);
+  } else {
+    reduced_ = std::make_unique<Reduced>(problem);
+  }
+}
+NormalSystem::~NormalSystem() = default;
+
+bool NormalSystem::factorize(const BlockDiagonal& E) {
+  return primal_ ? primal_->factorize(E) : reduced_->factorize(E);
+}
+
+Eigen::VectorXd NormalSystem::solve(const Eigen::VectorXd& b) const {
+  return primal_ ? primal_->solve(b) : reduced_->solve(b);
+}
+
+Eigen::VectorXd NormalSystem::solve_velocity(const Eigen::VectorXd& b) const {
+  return primal_->cholesky.solve(b);
+}
+
+}  // namespace conebench::solvers

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "solvers/block_diagonal.h"
+
+namespace conebench::solvers {
+
+/// Solves (I + E W) x = b for a symmetric positive semidefinite block diagonal E: the linear system
+/// of every method whose Newton matrix is symmetric (augmented Lagrangian, interior point).
+///
+/// Primal form, W = H M^-1 H^T: with y = (M + H^T E H)^-1 H^T b, x = b - E H y. The matrix is
+/// positive definite of size dofs whatever the rank of W, and its pattern never changes.
+/// Reduced form: with G = E^(1/2), x = b - G (I + G W G)^-1 G W b, W's symmetric part in the
+/// matrix.
+///
+/// Cost    construction analyses the pattern; factorize() one sparse Cholesky.
+class NormalSystem {
+ public:
+  explicit NormalSystem(const problems::Problem& problem);
+  ~NormalSystem();
+
+  /// False when a pivot is not positive: E is too large for doubles, or W is not PSD.
+  bool factorize(const BlockDiagonal& E);
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+
+  /// Primal form only: (M + H^T E H)^-1 b.
+  Eigen::VectorXd solve_velocity(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Primal;
+  struct Reduced;
+  std::unique_ptr<Primal> primal_;
+  std::unique_ptr<Reduced> reduced_;
+};
+
+}  // namespace conebench::solvers
