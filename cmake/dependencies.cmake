@@ -25,3 +25,19 @@ if(CONEBENCH_SUITESPARSE)
   endforeach()
   target_compile_definitions(conebench_suitesparse INTERFACE CONEBENCH_SUITESPARSE)
 endif()
+
+# Siconos Numerics. Its own package file is of no use: it insists on the parts of Siconos that
+# libsiconos-numerics-dev does not bring, and sets the C++ standard of whoever asks.
+if(CONEBENCH_SICONOS)
+  find_path(SICONOS_INCLUDE numerics/fc3d_Solvers.h PATH_SUFFIXES siconos)
+  find_library(SICONOS_NUMERICS siconos_numerics)
+  if(SICONOS_INCLUDE AND SICONOS_NUMERICS)
+    add_library(conebench_siconos INTERFACE)
+    target_include_directories(conebench_siconos SYSTEM INTERFACE ${SICONOS_INCLUDE}
+      ${SICONOS_INCLUDE}/numerics)
+    target_link_libraries(conebench_siconos INTERFACE ${SICONOS_NUMERICS})
+    target_compile_definitions(conebench_siconos INTERFACE CONEBENCH_SICONOS)
+  else()
+    message(STATUS "Siconos Numerics not found: its solvers are left out")
+  endif()
+endif()

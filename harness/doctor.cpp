@@ -17,6 +17,7 @@
 #include "harness/host.h"
 #include "harness/units.h"
 #include "results/text.h"
+#include "solvers/registry.h"
 
 namespace conebench::harness {
 namespace {
@@ -82,6 +83,13 @@ Finding load() {
           good};
 }
 
+Finding siconos() {
+  for (const solvers::Method& method : solvers::all_methods()) {
+    if (method.name.starts_with("siconos:")) return {"Siconos Numerics", "built in"};
+  }
+  return {"Siconos Numerics", "not built in: no siconos:* solvers (libsiconos-numerics-dev)"};
+}
+
 }  // namespace
 
 std::vector<Finding> examine() {
@@ -104,6 +112,7 @@ std::vector<Finding> examine() {
                                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"fmt", fmt::format("{}", FMT_VERSION)},
       {"CLI11", CLI11_VERSION},
+      siconos(),
       limit("limit: address space", RLIMIT_AS, true),
       limit("limit: file size", RLIMIT_FSIZE, true),
       limit("limit: processes", RLIMIT_NPROC, false),

@@ -165,13 +165,10 @@ void check_hash(const hdf5::Reader& reader, const Problem& problem) {
   }
 }
 
-}  // namespace
-
-void write_problem_file(const std::filesystem::path& path, const ProblemFile& file) {
+void write_all(hdf5::Writer& writer, const ProblemFile& file) {
   const Problem& problem = file.problem;
   require(file.guess.size() == 0 || file.guess.size() == problem.rows(), problem.name(),
           "the guess has ", file.guess.size(), " entries, expected ", problem.rows());
-  hdf5::Writer writer(path);
   write_root(writer, problem);
   write_problem(writer, problem);
   if (file.geometry) write_geometry(writer, *file.geometry, problem);
@@ -182,6 +179,23 @@ void write_problem_file(const std::filesystem::path& path, const ProblemFile& fi
   }
   if (file.solution) write_solution(writer, problem, *file.solution);
   if (fits_fclib(problem)) write_fclib_view(writer, problem, FclibArrays::kLinked);
+}
+
+}  // namespace
+
+void write_problem_file(const std::filesystem::path& path, const ProblemFile& file) {
+  hdf5::Writer writer(path);
+  write_all(writer, file);
+  writer.save();
+}
+
+void write_external_problem(const std::filesystem::path& path, const Problem& standard,
+                            const Eigen::VectorXd& guess) {
+  hdf5::Writer writer(path);
+  write_all(writer, {standard, {}, guess, {}});
+  if (standard.rate_scale_is_of_data()) {
+    writer.attribute("/", "rate_scale", standard.rate_scale());
+  }
   writer.save();
 }
 
@@ -210,6 +224,10 @@ void write_solution_file(const std::filesystem::path& path, const Problem& probl
   writer.attribute("/", "content_sha256", content_sha256(problem));
   write_solution(writer, problem, solution);
   writer.save();
+}
+
+Eigen::VectorXd read_solution_r(const std::filesystem::path& path, Eigen::Index rows) {
+  return hdf5::Reader(path).vector("/solution/r", rows);
 }
 
 }  // namespace conebench::problems

@@ -39,12 +39,20 @@ struct ProblemFile {
 /// Throws OutputError (unwritable, disk full) and then leaves nothing behind.
 void write_problem_file(const std::filesystem::path& path, const ProblemFile& file);
 
+/// The same for another program to solve: the standard problem, its guess (empty: none), and root
+/// attribute `rate_scale` in any case.
+void write_external_problem(const std::filesystem::path& path, const Problem& standard,
+                            const Eigen::VectorXd& guess);
+
 /// Reads version 1 of our format. Throws InputError naming file and dataset.
 ProblemFile read_problem_file(const std::filesystem::path& path);
 
 /// Writes a file with /solution/{r,u,v} only, atomically; what `conebench solve -o` leaves.
 void write_solution_file(const std::filesystem::path& path, const Problem& problem,
                          const Solution& solution);
+
+/// /solution/r of a file that another program wrote, with `rows` finite numbers. Throws InputError.
+Eigen::VectorXd read_solution_r(const std::filesystem::path& path, Eigen::Index rows);
 
 /// SHA-256 (hex) over the canonical content of the problem: little-endian numbers, rows sorted,
 /// stored zeros dropped, duplicates summed. Twins in two formats hash alike; names do not count.

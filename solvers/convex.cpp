@@ -2,6 +2,15 @@
 
 namespace conebench::solvers {
 
+Eigen::VectorXd de_saxce_shift(const problems::Problem& problem, const Eigen::VectorXd& u) {
+  Eigen::VectorXd shift(problem.cone_count());
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const problems::Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
+    shift(i) = cone.theta * u.segment(problem.start(i) + 1, cone.dim - 1).norm();
+  }
+  return shift;
+}
+
 double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shift,
                     const Eigen::VectorXd& r, const Eigen::VectorXd& u) {
   double worst = 0.0;
@@ -13,7 +22,8 @@ double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shi
     z = r.segment(at, cone.dim) - u.segment(at, cone.dim) / lambda;
     z(0) -= shift(i) / lambda;
     problems::project(cone.mu, z);
-    worst = std::max(worst, lambda * (r.segment(at, cone.dim) - z).norm());
+    const double error = lambda * (r.segment(at, cone.dim) - z).norm();
+    if (!(error <= worst)) worst = error;  // a NaN stays
   }
   return problem.rate_scale() > 0.0 ? worst / problem.rate_scale() : worst;
 }

@@ -30,7 +30,11 @@ class ConvexIteration {
 
 using MakeConvex = std::function<std::unique_ptr<ConvexIteration>(const problems::Problem&)>;
 
-/// error() for given r and u.
+/// theta_i |u_it|, one entry a cone: the shift whose convex problem has the Coulomb problem's
+/// solutions as fixed points. With it, convex_error is eta.
+Eigen::VectorXd de_saxce_shift(const problems::Problem& problem, const Eigen::VectorXd& u);
+
+/// error() for given r and u = W r + q.
 double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shift,
                     const Eigen::VectorXd& r, const Eigen::VectorXd& u);
 

@@ -12,6 +12,9 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
   monitor.setup_done();
 
   Result result;
+  // With kCommon the monitor keeps the best iterate; with kOwn nobody else does.
+  Eigen::VectorXd best = iteration.r();
+  double best_eta = iteration.own_eta();
   std::int64_t next_verification = 0;
   auto verified = [&] {
     return stop.test == StopTest::kOwn &&
@@ -32,6 +35,10 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
     }
     const Iteration::State state = iteration.advance();
     ++result.iterations;
+    if (stop.test == StopTest::kOwn && iteration.own_eta() < best_eta) {
+      best = iteration.r();
+      best_eta = iteration.own_eta();
+    }
     if (state == Iteration::State::kRunning) continue;
     if (state == Iteration::State::kInfeasible) {
       result.status = Status::kInfeasible;
@@ -43,7 +50,8 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
         monitor.conclude(verified() ? Status::kConverged : why, result.iterations, iteration.r());
     break;
   }
-  result.r = iteration.r();
+  const bool at_best = result.status == Status::kConverged || !(best_eta < iteration.own_eta());
+  result.r = at_best ? iteration.r() : best;
   result.notes = iteration.notes();
   return result;
 }

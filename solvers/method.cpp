@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "problems/error.h"
+#include "solvers/linear/threads.h"
 
 namespace conebench::solvers {
 namespace {
@@ -40,6 +41,7 @@ Solver make_checked_solver(const Method& method, const Values& values, Refuses r
                                                        const Request& request) {
     require(problem.is_standard(), problem.name(), "kappa > 0, expected the standard problem");
     request.stop.check();
+    pin_library_threads();
     if (auto why = refuses(problem)) return unsupported(problem, std::move(*why));
     std::optional<Monitor> own;
     Monitor& monitor = request.monitor ? *request.monitor : own.emplace(problem, request.stop);

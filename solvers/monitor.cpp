@@ -14,13 +14,23 @@ Monitor::Monitor(const problems::Problem& standard, const Stop& stop)
 
 void Monitor::setup_done() { setup_s_ = elapsed_s(); }
 
+void Monitor::set_clock(double setup_s, double solve_s) {
+  setup_s_ = setup_s;
+  const std::chrono::duration<double> too_much(elapsed_s() - setup_s - solve_s);
+  paused_ += std::chrono::duration_cast<Clock::duration>(too_much);
+}
+
 double Monitor::elapsed_s() const {
   return std::chrono::duration<double>(Clock::now() - start_ - paused_).count();
 }
 
 bool Monitor::due(std::int64_t iteration) const {
-  return (stop_.test == StopTest::kCommon && iteration >= next_look_) ||
+  return (stop_.test == StopTest::kCommon && look_is_due(iteration)) ||
          limit(iteration).has_value();
+}
+
+bool Monitor::look_is_due(std::int64_t iteration) const {
+  return iteration >= next_look_ || elapsed_s() >= next_look_s_;
 }
 
 std::optional<Status> Monitor::limit(std::int64_t iteration) const {
@@ -40,13 +50,14 @@ double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r) {
   }
   next_look_ = std::max(
       iteration + 1, static_cast<std::int64_t>(std::ceil(1.02 * static_cast<double>(iteration))));
+  next_look_s_ = 1.02 * time_s;
   paused_ += Clock::now() - pause;
   return eta;
 }
 
 Verdict Monitor::check(std::int64_t iteration, const Eigen::VectorXd& r) {
   const std::optional<Status> reached = limit(iteration);
-  if (stop_.test == StopTest::kCommon && (reached || iteration >= next_look_)) {
+  if (stop_.test == StopTest::kCommon && (reached || look_is_due(iteration))) {
     const double eta = look(iteration, r);
     // The residual comes first: an answer that is good enough at the limit has converged.
     if (eta <= stop_.tol) {

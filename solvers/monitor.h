@@ -22,7 +22,7 @@ struct CurvePoint {
 /// A method calls check() with its iterate after every iteration (and once before the first).
 /// With StopTest::kCommon, eta is computed while the clock stands still: every method stops on the
 /// same test and none pays for it. To bound the cost of judging, eta is looked at when the
-/// iteration count has grown by 2 % since the last look (every iteration up to 50).
+/// iteration count or the time has grown by 2 % since the last look (every iteration up to 50).
 /// With StopTest::kOwn only the limits are watched.
 class Monitor {
  public:
@@ -31,6 +31,10 @@ class Monitor {
 
   /// Ends the set-up phase; call it once, before the first iteration.
   void setup_done();
+
+  /// For a solver that ran in a process of its own and timed itself: makes the clock show
+  /// setup_s + solve_s, whatever starting and watching that process took.
+  void set_clock(double setup_s, double solve_s);
 
   /// True when the next check() at this iteration will look at r. A method that keeps r in another
   /// form asks first, to spare the conversion.
@@ -58,6 +62,7 @@ class Monitor {
 
   double look(std::int64_t iteration, const Eigen::VectorXd& r);
   std::optional<Status> limit(std::int64_t iteration) const;
+  bool look_is_due(std::int64_t iteration) const;
 
   const problems::Problem& problem_;
   Stop stop_;
@@ -65,6 +70,7 @@ class Monitor {
   Clock::duration paused_{};
   double setup_s_ = 0.0;
   std::int64_t next_look_ = 0;
+  double next_look_s_ = 0.0;
   Status status_ = Status::kStalled;
   Eigen::VectorXd best_;
   double best_eta_ = std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 
 #include "problems/error.h"
 #include "problems/suggest.h"
+#include "solvers/external.h"
 #include "solvers/registry.h"
 
 namespace conebench::solvers {
@@ -117,7 +118,9 @@ std::string spelled(const Value& value) {
 }  // namespace
 
 std::vector<Solver> make_solvers(std::string_view variants) {
-  const Parsed parsed = parse(trimmed(variants));
+  const std::string whole = trimmed(variants);
+  if (whole.starts_with(kExternalPrefix)) return {make_external_solver(whole)};
+  const Parsed parsed = parse(whole);
   const Method& method = find_method(parsed.method, variants);
   Values defaults;
   for (const Parameter& parameter : method.parameters)

@@ -9,6 +9,10 @@
 namespace conebench::solvers {
 
 #ifdef CONEBENCH_SUITESPARSE
+// A pivot on the diagonal is taken from this share of its column's largest entry on: the ordering
+// survives (2 to 10 times less time), and UMFPACK's refinement makes up for the growth.
+constexpr double kDiagonalPivot = 1e-8;
+
 struct Lu::Factor : Eigen::UmfPackLU<Matrix> {};
 #else
 struct Lu::Factor : Eigen::SparseLU<Matrix> {};
@@ -18,7 +22,13 @@ Lu::Lu() : factor_(std::make_unique<Factor>()) {}
 Lu::~Lu() = default;
 Lu::Lu(Lu&&) noexcept = default;
 
-void Lu::analyse(const Matrix& matrix) { factor_->analyzePattern(matrix); }
+void Lu::analyse(const Matrix& matrix) {
+#ifdef CONEBENCH_SUITESPARSE
+  factor_->umfpackControl()(UMFPACK_STRATEGY) = UMFPACK_STRATEGY_SYMMETRIC;
+  factor_->umfpackControl()(UMFPACK_SYM_PIVOT_TOLERANCE) = kDiagonalPivot;
+#endif
+  factor_->analyzePattern(matrix);
+}
 
 bool Lu::factorize(const Matrix& matrix) {
   factor_->factorize(matrix);

@@ -5,8 +5,9 @@
 
 namespace conebench::solvers {
 
-/// Sparse LU of square matrices that share one pattern: UMFPACK where SuiteSparse's GPL parts are
-/// built in, else Eigen's SparseLU.
+/// Sparse LU of square matrices that share one, nearly symmetric, pattern: UMFPACK where
+/// SuiteSparse's GPL parts are built in (ordered for such a pattern, pivots preferably on the
+/// diagonal), else Eigen's SparseLU.
 class Lu {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;

@@ -234,6 +234,10 @@ Eigen::VectorXd NormalSystem::solve(const Eigen::VectorXd& b) const {
   return primal_ ? primal_->solve(b) : reduced_->solve(b);
 }
 
+std::int64_t NormalSystem::nonzeros(const Problem& problem) {
+  return pattern(problem, ConeRows(problem)).nonZeros();
+}
+
 Eigen::VectorXd NormalSystem::solve_velocity(const Eigen::VectorXd& b) const {
   return primal_->cholesky.solve(b);
 }

@@ -22,6 +22,9 @@ class NormalSystem {
   bool factorize(const BlockDiagonal& E);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
+  /// Nonzeros of the lower triangle of M + H^T E H, to compare with another form's. Primal only.
+  static std::int64_t nonzeros(const problems::Problem& problem);
+
   /// Primal form only: (M + H^T E H)^-1 b.
   Eigen::VectorXd solve_velocity(const Eigen::VectorXd& b) const;
 

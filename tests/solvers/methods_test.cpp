@@ -5,6 +5,7 @@
 #include "problems/error.h"
 #include "problems/made_backwards.h"
 #include "problems/residual.h"
+#include "solvers/gs.h"
 #include "solvers/monitor.h"
 #include "solvers/registry.h"
 
@@ -167,16 +168,23 @@ TEST_P(EveryMethod, RefusesAGuessOfTheWrongLengthAndAnUnshiftedProblem) {
   EXPECT_THROW(solver_.solve(problem, {}), problems::InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Registered, EveryMethod,
-                         testing::Values("gs", "gs[form=delassus]", "gs[local=projection]",
-                                         "gs[omega=0.8]", "spg", "spg[refresh=10]"),
-                         [](const auto& test) {
-                           std::string name = test.param;
-                           for (char& c : name) {
-                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                           }
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Registered, EveryMethod,
+    testing::Values("auto", "aclm", "aclm[anderson=0]", "ipm", "aclm-ipm", "aclm-ipm[form=kkt]",
+                    "aclm-ipm[form=normal]", "gs", "gs[form=delassus]", "gs[local=projection]",
+                    "gs[omega=0.8]", "gs[local=newton-ac]", "gs[local=newton-fb]",
+                    "gs[sweep=symmetric]", "gs[skip=5]", "gs[islands=true]", "spg", "newton-ac",
+                    "newton-ac[form=reduced]", "newton-ac[variant=jean-moreau]",
+                    "newton-ac[line_search=none]", "newton-ac[line_search=armijo]",
+                    "newton-ac[line_search=goldstein-price]", "newton-fb", "spg[refresh=10]",
+                    "ipopt", "aclm-ipopt"),
+    [](const auto& test) {
+      std::string name = test.param;
+      for (char& c : name) {
+        if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
+      }
+      return name;
+    });
 
 TEST(GaussSeidel, BothFormsTakeTheSameSteps) {
   const Problem problem =
@@ -210,6 +218,47 @@ TEST(GaussSeidel, SolvesSingularBlocks) {
       {.family = Family::kSingularBlock, .cones = 12, .mu_high = 0.4, .seed = 9});
   EXPECT_EQ(make_solver("gs").solve(made.problem, {{.tol = 1e-8}, {}, nullptr}).status,
             Status::kConverged);
+}
+
+TEST(GaussSeidel, QuarticTakesTheStepsOfExact) {
+  const Problem problem =
+      problems::make_backwards({.cones = 25, .dims = {3, 1}, .mu_high = 0.5, .seed = 32}).problem;
+  const Stop few{.tol = 1e-300, .max_iterations = 5};
+  const Result exact = make_solver("gs").solve(problem, {few, {}, nullptr});
+  const Result quartic = make_solver("gs[local=quartic]").solve(problem, {few, {}, nullptr});
+  EXPECT_LE((exact.r - quartic.r).norm(), 1e-9 * exact.r.norm());
+  EXPECT_EQ(make_solver("gs[local=quartic]").solve(problem, {{.tol = 1e-9}, {}, nullptr}).status,
+            Status::kConverged);
+}
+
+TEST(GaussSeidel, QuarticRefusesOtherDimensionsAndDilatancy) {
+  const Solver solver = make_solver("gs[local=quartic]");
+  EXPECT_TRUE(solver.supports(problems::make_backwards({.dims = {3, 1}}).problem));
+  EXPECT_FALSE(solver.supports(problems::make_backwards({.dims = {3, 2}}).problem));
+  EXPECT_FALSE(solver.supports(problems::make_backwards({.theta_share = 0.5}).problem));
+}
+
+TEST(GaussSeidel, PartialSweepsReachWhatFullSweepsReach) {
+  const Problem problem =
+      problems::make_backwards({.cones = 40, .dims = {3, 2}, .mu_high = 0.5, .seed = 33}).problem;
+  for (const char* variant : {"gs[skip=3]", "gs[islands=true]", "gs[islands=true,skip=3]"}) {
+    const Result result = make_solver(variant).solve(problem, {{.tol = 1e-10}, {}, nullptr});
+    EXPECT_EQ(result.status, Status::kConverged) << variant;
+    EXPECT_LE(problems::evaluate_eta(problem, result.r), 1e-10) << variant;
+  }
+}
+
+TEST(GaussSeidel, IsDrivenSweepBySweepByOthers) {
+  const Problem problem =
+      problems::make_backwards({.cones = 15, .mu_high = 0.5, .seed = 34}).problem;
+  const std::unique_ptr<Iteration> sweeps = make_gauss_seidel(problem);
+  sweeps->start(Eigen::VectorXd::Zero(problem.rows()));
+  EXPECT_TRUE(std::isinf(sweeps->own_eta()));
+  for (int k = 0; k < 5; ++k) sweeps->advance();
+  const Stop five{.tol = 1e-300, .max_iterations = 5, .test = StopTest::kOwn};
+  EXPECT_EQ(sweeps->r(), make_solver("gs").solve(problem, {five, {}, nullptr}).r);
+  EXPECT_GT(sweeps->own_eta(), 0.0);
+  EXPECT_LT(sweeps->own_eta(), 1.0);
 }
 
 }  // namespace

@@ -77,6 +77,14 @@ TEST(Monitor, LeavesJudgementToTheMethodWhenTheTestIsItsOwn) {
   EXPECT_TRUE(monitor.curve().empty());
 }
 
+TEST(Monitor, ShowsTheTimeThatAnotherProcessMeasured) {
+  Monitor monitor(made().problem, {});
+  monitor.set_clock(100.0, 2000.0);
+  EXPECT_EQ(monitor.setup_s(), 100.0);
+  EXPECT_GE(monitor.elapsed_s(), 2100.0 - 1e-6);
+  EXPECT_LT(monitor.elapsed_s(), 2110.0);
+}
+
 TEST(Monitor, RefusesAMeaninglessStop) {
   EXPECT_THROW(Monitor(made().problem, {.tol = 0.0}), problems::InputError);
   EXPECT_THROW(Monitor(made().problem, {.time_limit_s = -1.0}), problems::InputError);

@@ -1,0 +1,141 @@
+#include "solvers/aclm.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "solvers/anderson.h"
+#include "solvers/ssnal.h"
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Problem;
+
+// An outer step that leaves this multiple of the least residual so far restarts Anderson.
+constexpr double kGrowth = 2.0;
+// Inner iterations on one t before the next t is tried all the same.
+constexpr int kInnerIterations = 60;
+
+class Aclm final : public Iteration {
+ public:
+  Aclm(const Problem& problem, std::unique_ptr<ConvexIteration> inner, const AclmSettings& settings)
+      : problem_(problem),
+        settings_(settings),
+        inner_(std::move(inner)),
+        anderson_(settings.anderson),
+        convex_(std::all_of(problem.cones().begin(), problem.cones().end(),
+                            [](const problems::Cone& cone) { return cone.theta == 0.0; })) {}
+
+  void start(const Eigen::VectorXd& r) override {
+    shift_ = de_saxce_shift(problem_, problem_.rate(r));
+    anderson_.restart();
+    least_ = last_ = std::numeric_limits<double>::infinity();
+    best_ = r;
+    best_eta_ = convex_error(problem_, shift_, r, problem_.rate(r));
+    inner_->pose(shift_, r);
+    inner_iterations_ = 0;
+    measure();
+  }
+
+  State advance() override {
+    const double tolerance = settings_.inner * std::min(eta_, last_);
+    const State state = inner_->advance(tolerance);
+    ++inner_iterations_;
+    measure();
+    if (state == State::kDiverged || convex_) return state;
+    if (state == State::kStalled || inner_->error() <= tolerance ||
+        inner_iterations_ >= kInnerIterations) {
+      if (state == State::kStalled && !(best_eta_ < last_best_)) return state;
+      next_shift();
+    }
+    return State::kRunning;
+  }
+
+  const Eigen::VectorXd& r() const override { return best_; }
+  double own_eta() const override { return best_eta_; }
+  std::vector<std::string> notes() const override { return inner_->notes(); }
+
+ private:
+  void measure() {
+    mapped_ = de_saxce_shift(problem_, inner_->u());
+    eta_ = convex_error(problem_, mapped_, inner_->r(), inner_->u());
+    if (!(eta_ < best_eta_)) return;
+    best_eta_ = eta_;
+    best_ = inner_->r();
+  }
+
+  void next_shift() {
+    const double residual = (mapped_ - shift_).norm();
+    if (residual > kGrowth * least_) {
+      anderson_.restart();
+      least_ = residual;
+      shift_ = mapped_;
+    } else {
+      least_ = std::min(least_, residual);
+      shift_ = anderson_.next(shift_, mapped_).cwiseMax(0.0);
+    }
+    last_ = eta_;
+    last_best_ = best_eta_;
+    const Eigen::VectorXd r = inner_->r();
+    inner_->pose(shift_, r);
+    inner_iterations_ = 0;
+  }
+
+  const Problem& problem_;
+  AclmSettings settings_;
+  std::unique_ptr<ConvexIteration> inner_;
+  Anderson anderson_;
+  Eigen::VectorXd shift_, mapped_;           // t, and theta |u_t| of the inner iterate
+  double eta_ = 0.0, last_ = 0.0;            // of the inner iterate; at the last change of t
+  double best_eta_ = 0.0, last_best_ = 0.0;  // of best_; at the last change of t
+  Eigen::VectorXd best_;
+  bool convex_;         // t is 0 for good
+  double least_ = 0.0;  // least |mapped - shift| since Anderson restarted
+  int inner_iterations_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Iteration> make_aclm(const Problem& problem, std::unique_ptr<ConvexIteration> inner,
+                                     const AclmSettings& settings) {
+  return std::make_unique<Aclm>(problem, std::move(inner), settings);
+}
+
+Method make_aclm_method(std::string name, std::string summary, std::vector<Parameter> parameters,
+                        std::function<MakeConvex(const Values&)> make_inner,
+                        std::function<Refuses(const Values&)> refuses) {
+  parameters.push_back({.name = "anderson",
+                        .fallback = std::int64_t{10},
+                        .low = 0,
+                        .high = 100,
+                        .doc = "depth of Anderson acceleration of t; 0 is the plain fixed point"});
+  parameters.push_back({.name = "inner",
+                        .fallback = 0.1,
+                        .low = 1e-6,
+                        .high = 0.9,
+                        .doc = "tolerance of the convex problem, as a share of eta [-]"});
+  Method method{.name = std::move(name),
+                .kind = Kind::kMethod,
+                .summary = std::move(summary),
+                .parameters = std::move(parameters),
+                .make = {}};
+  method.make = [method, make_inner = std::move(make_inner),
+                 refuses = std::move(refuses)](const Values& values) {
+    const AclmSettings settings{static_cast<int>(std::get<std::int64_t>(values.at("anderson"))),
+                                std::get<double>(values.at("inner"))};
+    auto make = [settings, inner = make_inner(values)](const Problem& problem) {
+      return make_aclm(problem, inner(problem), settings);
+    };
+    return make_iterative_solver(method, values, refuses(values), make);
+  };
+  return method;
+}
+
+Method aclm() {
+  return make_aclm_method(
+      "aclm", "fixed point on the De Saxce term; inner semismooth Newton, augmented Lagrangian", {},
+      [](const Values&) { return MakeConvex(make_ssnal); },
+      [](const Values&) -> Refuses { return [](const Problem&) { return std::nullopt; }; });
+}
+
+}  // namespace conebench::solvers

@@ -1,0 +1,207 @@
+#include "solvers/auto.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "problems/residual.h"
+#include "solvers/aclm.h"
+#include "solvers/gs.h"
+#include "solvers/ipm.h"
+#include "solvers/newton/newton.h"
+#include "solvers/ssnal.h"
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Problem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the time that the lane has had
+constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
+constexpr double kHandover = 0.1;    // a start this much better than the lane's own is taken
+constexpr double kNoPromise = 4.0;   // times the time had, where a turn brought nothing
+constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
+
+// One method, its iterate and its record.
+struct Lane {
+  std::string name;
+  MakeIteration make;
+  double first_promise;  // time to finish before it has run, in sweeps of Gauss-Seidel
+  bool hands_over;       // gains from the other lanes' iterates
+
+  std::unique_ptr<Iteration> iteration{};
+  double eta = kInfinity;  // at the end of its last turn
+  double spent_s = 0.0;
+  double promise_s = 0.0;
+  std::int64_t steps = 0;
+  bool over = false;  // diverged or stalled at the iterate it would start from again
+};
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class Automatic final : public Iteration {
+ public:
+  Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
+    lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p); }, 0.0, true});
+    lanes_.push_back(
+        {"newton-ac", [](const Problem& p) { return make_newton(p, {}); }, 300.0, true});
+    lanes_.push_back(
+        {"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); }, 1500.0, true});
+    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, 3000.0, false});
+  }
+
+  void start(const Eigen::VectorXd& r) override {
+    guess_ = best_ = r;
+    best_eta_ = problems::evaluate_eta(problem_, r);
+    for (Lane& lane : lanes_) {
+      lane.eta = kInfinity;
+      lane.spent_s = 0.0;
+      lane.steps = 0;
+      lane.over = false;
+    }
+    begin_turn(0);
+  }
+
+  State advance() override {
+    Lane& lane = lanes_[current_];
+    const auto clock = Clock::now();
+    const State state = lane.iteration->advance();
+    ++lane.steps;
+    ++turn_steps_;
+    const double spent = seconds_since(clock);
+    turn_s_ += spent;
+    lane.spent_s += spent;
+    if (state == State::kInfeasible) return state;
+    if (state == State::kRunning && !turn_is_over(lane)) return State::kRunning;
+    return end_turn(lane, state);
+  }
+
+  const Eigen::VectorXd& r() const override { return lanes_[current_].iteration->r(); }
+  double own_eta() const override { return lanes_[current_].iteration->own_eta(); }
+  Eigen::VectorXd certificate() const override { return lanes_[current_].iteration->certificate(); }
+
+  std::vector<std::string> notes() const override {
+    std::string text = "turns:";
+    for (const Lane& lane : lanes_) {
+      if (lane.steps == 0) continue;
+      text += fmt::format(" {} {} steps in {:.3g} s,", lane.name, lane.steps, lane.spent_s);
+    }
+    text.back() = ';';
+    return {text + " last " + lanes_[current_].name};
+  }
+
+ private:
+  bool turn_is_over(const Lane& lane) const {
+    if (current_ == 0 && lane.steps < kFirstSweeps) return false;
+    return turn_s_ >= kTurnGrowth * (lane.spent_s - turn_s_);
+  }
+
+  void begin_turn(std::size_t next) {
+    current_ = next;
+    Lane& lane = lanes_[next];
+    turn_s_ = 0.0;
+    turn_steps_ = 0;
+    const auto clock = Clock::now();
+    if (!lane.iteration) {
+      lane.iteration = lane.make(problem_);
+      lane.iteration->start(lane.hands_over ? best_ : guess_);
+    } else if (lane.hands_over && best_eta_ < kHandover * lane.eta) {
+      lane.iteration->start(best_);
+    }
+    if (lane.steps == 0) lane.eta = lane.hands_over ? best_eta_ : kInfinity;
+    turn_s_ = seconds_since(clock);
+    lane.spent_s += turn_s_;
+    turn_from_ = std::min(lane.eta, lane.hands_over ? best_eta_ : lane.eta);
+  }
+
+  State end_turn(Lane& lane, State state) {
+    const auto clock = Clock::now();
+    lane.eta = problems::evaluate_eta(problem_, lane.iteration->r());
+    if (lane.eta < best_eta_) {
+      best_eta_ = lane.eta;
+      best_ = lane.iteration->r();
+    }
+    lane.spent_s += seconds_since(clock);
+    if (state != State::kRunning) {
+      lane.over = true;
+      lane.promise_s = kInfinity;
+    } else if (lane.eta <= kProgress * turn_from_) {
+      const double fall = std::log(std::min(turn_from_, 1e3) / lane.eta);
+      lane.promise_s = turn_s_ * std::max(std::log(lane.eta / tol_), 0.0) / std::max(fall, 1e-3);
+    } else {
+      lane.promise_s = kNoPromise * lane.spent_s;
+    }
+    if (current_ == 0) sweep_s_ = lane.spent_s / static_cast<double>(lane.steps);
+    return choose();
+  }
+
+  State choose() {
+    std::size_t chosen = lanes_.size();
+    double least = kInfinity;
+    for (std::size_t k = 0; k < lanes_.size(); ++k) {
+      const Lane& lane = lanes_[k];
+      // What stopped may start again from a better iterate.
+      const bool stuck = lane.over && !(lane.hands_over && best_eta_ < kHandover * lane.eta);
+      if (stuck) continue;
+      const double promise = lane.steps == 0 ? lane.first_promise * sweep_s_
+                             : lane.over     ? kNoPromise * lane.spent_s
+                                             : lane.promise_s;
+      if (promise < least) {
+        least = promise;
+        chosen = k;
+      }
+    }
+    if (chosen == lanes_.size()) return State::kStalled;
+    lanes_[chosen].over = false;
+    if (chosen != current_ || lanes_[chosen].eta > best_eta_) {
+      begin_turn(chosen);
+    } else {
+      turn_s_ = 0.0;
+      turn_from_ = lanes_[chosen].eta;
+    }
+    return State::kRunning;
+  }
+
+  const Problem& problem_;
+  double tol_;
+  std::vector<Lane> lanes_;
+  std::size_t current_ = 0;
+  Eigen::VectorXd guess_, best_;
+  double best_eta_ = kInfinity;
+  double sweep_s_ = 0.0;  // of Gauss-Seidel
+  double turn_s_ = 0.0, turn_from_ = kInfinity;
+  int turn_steps_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Iteration> make_automatic(const Problem& problem, double tol) {
+  return std::make_unique<Automatic>(problem, tol);
+}
+
+Method automatic() {
+  Method method{.name = "auto",
+                .kind = Kind::kMethod,
+                .summary = "gs, newton-ac, aclm and ipm in turns; the one that gets on goes on",
+                .parameters = {},
+                .make = {}};
+  method.make = [method](const Values& values) {
+    auto run = [](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
+                  Monitor& monitor) {
+      const std::unique_ptr<Iteration> iteration = make_automatic(problem, stop.tol);
+      return drive(*iteration, problem, stop, guess, monitor);
+    };
+    return make_checked_solver(
+        method, values, [](const Problem&) { return std::nullopt; }, run);
+  };
+  return method;
+}
+
+}  // namespace conebench::solvers

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <variant>
+
+#include "problems/cone.h"
+#include "solvers/local/exact.h"
+#include "solvers/local/newton_ac.h"
+#include "solvers/local/newton_fb.h"
+#include "solvers/local/quartic.h"
+
+namespace conebench::solvers {
+
+/// How one cone is solved with all others held.
+enum class LocalKind {
+  kExact,       ///< to rounding (exact.h)
+  kProjection,  ///< one projected step, P_K(r - u_hat / lambda)
+  kNewtonAc,    ///< Alart-Curnier Newton (newton_ac.h)
+  kNewtonFb,    ///< Fischer-Burmeister Newton (newton_fb.h)
+  kQuartic,     ///< enumeration (quartic.h)
+};
+
+enum class LocalOutcome {
+  kDone,
+  kStopped,     ///< a Newton kept its best iterate, short of a solution; the quartic left r alone
+  kNoSolution,  ///< no reaction satisfies the law; r is left as it was
+};
+
+/// One cone of a sweep, ready to be solved many times. Cones of d = 1 have a closed form: there
+/// every kind but the projection is the exact one. kQuartic takes d = 1 and 3 only.
+///
+/// B = sym(W_ii), plus regularization lambda I where its smallest eigenvalue is below
+/// regularization lambda. Memory  d = 3: about 200 bytes. D as in ExactLocal.
+template <int D>
+class OneCone {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Matrix = Eigen::Matrix<double, D, D>;
+
+  OneCone(LocalKind kind, const Matrix& Wii, double lambda, const problems::Cone& cone,
+          double regularization);
+
+  /// Replaces r_i by the answer for u_i, the rate at r_i: the problem of B and q = u_i - B r_i.
+  LocalOutcome solve(const Vector& u, Vector& r) {
+    if (auto* exact = std::get_if<Exact>(&local_)) return exact->solve(u, r);  // inlined in sweeps
+    return solve_otherwise(u, r);
+  }
+
+ private:
+  struct Projection {
+    double lambda, mu, theta;
+  };
+  struct Exact {
+    LocalOutcome solve(const Vector& u, Vector& r) {
+      Vector q = u;
+      q.noalias() -= B * r;
+      return solver.solve(q, r, slide_rate) == LocalCase::kNoSolution ? LocalOutcome::kNoSolution
+                                                                      : LocalOutcome::kDone;
+    }
+
+    ExactLocal<D> solver;
+    Matrix B;
+    double slide_rate = 0.0;  // of the last slide: the next one's guess
+  };
+
+  LocalOutcome solve_otherwise(const Vector& u, Vector& r) const;
+  LocalOutcome solve_with(const Projection& local, const Vector& u, Vector& r) const;
+  template <class Local>
+  LocalOutcome solve_with(const Local& local, const Vector& u, Vector& r) const;
+
+  std::variant<Projection, Exact, NewtonAcLocal<D>, NewtonFbLocal<D>, QuarticLocal> local_;
+};
+
+extern template class OneCone<1>;
+extern template class OneCone<2>;
+extern template class OneCone<3>;
+extern template class OneCone<6>;
+extern template class OneCone<Eigen::Dynamic>;
+
+/// Calls function.template operator()<D>() with D = dim where OneCone has code for that dimension,
+/// else with D = Eigen::Dynamic.
+template <class Function>
+void with_dimension(int dim, const Function& function) {
+  switch (dim) {
+    case 1:
+      return function.template operator()<1>();
+    case 2:
+      return function.template operator()<2>();
+    case 3:
+      return function.template operator()<3>();
+    case 6:
+      return function.template operator()<6>();
+    default:
+      return function.template operator()<Eigen::Dynamic>();
+  }
+}
+
+}  // namespace conebench::solvers
