@@ -1,20 +1,29 @@
 #include "solvers/aclm.h"
 
 #include <algorithm>
+#include <chrono>
 #include <limits>
 
 #include "solvers/anderson.h"
+#include "solvers/certificate.h"
 #include "solvers/ssnal.h"
 
 namespace conebench::solvers {
 namespace {
 
 using problems::Problem;
+using Clock = std::chrono::steady_clock;
 
 // An outer step that leaves this multiple of the least residual so far restarts Anderson.
 constexpr double kGrowth = 2.0;
 // Inner iterations on one t before the next t is tried all the same.
 constexpr int kInnerIterations = 60;
+// Iterations without a fall of eta to kProgress of what it was, before a proof that there is no
+// solution is tried; twice as many before each further try.
+constexpr int kPatience = 100;
+constexpr double kProgress = 0.5;
+// Time for such a try, as a share of the time so far.
+constexpr double kProofShare = 0.25;
 
 class Aclm final : public Iteration {
  public:
@@ -27,35 +36,69 @@ class Aclm final : public Iteration {
                             [](const problems::Cone& cone) { return cone.theta == 0.0; })) {}
 
   void start(const Eigen::VectorXd& r) override {
-    shift_ = de_saxce_shift(problem_, problem_.rate(r));
-    anderson_.restart();
-    least_ = last_ = std::numeric_limits<double>::infinity();
     best_ = r;
-    best_eta_ = convex_error(problem_, shift_, r, problem_.rate(r));
-    inner_->pose(shift_, r);
-    inner_iterations_ = 0;
+    pose_best();
     measure();
+    began_ = Clock::now();
+    patience_ = kPatience;
+    idle_ = 0;
+    eta_before_idling_ = best_eta_;
   }
 
   State advance() override {
-    const double tolerance = settings_.inner * std::min(eta_, last_);
-    const State state = inner_->advance(tolerance);
-    ++inner_iterations_;
-    measure();
-    if (state == State::kDiverged || convex_) return state;
-    if (state == State::kStalled || inner_->error() <= tolerance ||
-        inner_iterations_ >= kInnerIterations) {
-      if (state == State::kStalled && !(best_eta_ < last_best_)) return state;
-      next_shift();
-    }
-    return State::kRunning;
+    const State state = step();
+    if (state == State::kRunning && !out_of_patience()) return state;
+    const std::chrono::duration<double> spent = Clock::now() - began_;
+    const auto proof = prove_infeasible(problem_, kProofShare * spent.count());
+    if (!proof) return state;
+    certificate_ = *proof;
+    return State::kInfeasible;
   }
 
   const Eigen::VectorXd& r() const override { return best_; }
   double own_eta() const override { return best_eta_; }
   std::vector<std::string> notes() const override { return inner_->notes(); }
+  Eigen::VectorXd certificate() const override { return certificate_; }
 
  private:
+  State step() {
+    const double tolerance = settings_.inner * std::min(eta_, last_);
+    const State state = inner_->advance(tolerance);
+    ++inner_iterations_;
+    measure();
+    if (state != State::kRunning) {
+      if (!(best_eta_ <= kProgress * last_best_)) return state;
+      pose_best();
+    } else if (!convex_ &&
+               (inner_->error() <= tolerance || inner_iterations_ >= kInnerIterations)) {
+      next_shift();
+    }
+    return State::kRunning;
+  }
+
+  // From the best iterate so far, with its own t.
+  void pose_best() {
+    const Eigen::VectorXd u = problem_.rate(best_);
+    shift_ = de_saxce_shift(problem_, u);
+    anderson_.restart();
+    least_ = std::numeric_limits<double>::infinity();
+    last_ = best_eta_ = convex_error(problem_, shift_, best_, u);
+    last_best_ = best_eta_;
+    inner_->pose(shift_, Eigen::VectorXd(best_));
+    inner_iterations_ = 0;
+  }
+
+  bool out_of_patience() {
+    if (best_eta_ <= kProgress * eta_before_idling_) {
+      eta_before_idling_ = best_eta_;
+      idle_ = 0;
+    }
+    if (++idle_ < patience_) return false;
+    patience_ *= 2;
+    idle_ = 0;
+    return true;
+  }
+
   void measure() {
     mapped_ = de_saxce_shift(problem_, inner_->u());
     eta_ = convex_error(problem_, mapped_, inner_->r(), inner_->u());
@@ -92,6 +135,10 @@ class Aclm final : public Iteration {
   bool convex_;         // t is 0 for good
   double least_ = 0.0;  // least |mapped - shift| since Anderson restarted
   int inner_iterations_ = 0;
+  Clock::time_point began_;
+  int patience_ = kPatience, idle_ = 0;  // iterations without progress: allowed, so far
+  double eta_before_idling_ = 0.0;
+  Eigen::VectorXd certificate_;
 };
 
 }  // namespace

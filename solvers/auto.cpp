@@ -23,7 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the time that the lane has had
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
-constexpr double kHandover = 0.1;    // a start this much better than the lane's own is taken
+constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
 constexpr double kNoPromise = 4.0;   // times the time had, where a turn brought nothing
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 
@@ -31,8 +31,9 @@ constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 struct Lane {
   std::string name;
   MakeIteration make;
-  double first_promise;  // time to finish before it has run, in sweeps of Gauss-Seidel
-  bool hands_over;       // gains from the other lanes' iterates
+  double first_promise;      // time to finish before it has run, in sweeps of Gauss-Seidel
+  std::int64_t usual_steps;  // of a run that succeeds without trouble
+  double handover;           // a start is taken from others when better than its own by this factor
 
   std::unique_ptr<Iteration> iteration{};
   double eta = kInfinity;  // at the end of its last turn
@@ -49,12 +50,15 @@ double seconds_since(Clock::time_point start) {
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
-    lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p); }, 0.0, true});
     lanes_.push_back(
-        {"newton-ac", [](const Problem& p) { return make_newton(p, {}); }, 300.0, true});
+        {"gs",
+         [](const Problem& p) { return make_gauss_seidel(p, {.partial_sweeps = kPartialSweeps}); },
+         0.0, 0, 0.1});
     lanes_.push_back(
-        {"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); }, 1500.0, true});
-    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, 3000.0, false});
+        {"newton-ac", [](const Problem& p) { return make_newton(p, {}); }, 300.0, 15, 1e-2});
+    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, 1500.0, 30, 0.0});
+    lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
+                      1500.0, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {
@@ -74,7 +78,6 @@ class Automatic final : public Iteration {
     const auto clock = Clock::now();
     const State state = lane.iteration->advance();
     ++lane.steps;
-    ++turn_steps_;
     const double spent = seconds_since(clock);
     turn_s_ += spent;
     lane.spent_s += spent;
@@ -107,18 +110,16 @@ class Automatic final : public Iteration {
     current_ = next;
     Lane& lane = lanes_[next];
     turn_s_ = 0.0;
-    turn_steps_ = 0;
     const auto clock = Clock::now();
     if (!lane.iteration) {
       lane.iteration = lane.make(problem_);
-      lane.iteration->start(lane.hands_over ? best_ : guess_);
-    } else if (lane.hands_over && best_eta_ < kHandover * lane.eta) {
+      lane.iteration->start(lane.handover > 0.0 ? best_ : guess_);
+    } else if (best_eta_ < lane.handover * lane.eta) {
       lane.iteration->start(best_);
     }
-    if (lane.steps == 0) lane.eta = lane.hands_over ? best_eta_ : kInfinity;
     turn_s_ = seconds_since(clock);
     lane.spent_s += turn_s_;
-    turn_from_ = std::min(lane.eta, lane.hands_over ? best_eta_ : lane.eta);
+    turn_from_ = std::min(lane.eta, best_eta_);
   }
 
   State end_turn(Lane& lane, State state) {
@@ -138,6 +139,10 @@ class Automatic final : public Iteration {
     } else {
       lane.promise_s = kNoPromise * lane.spent_s;
     }
+    if (state == State::kRunning && lane.steps < lane.usual_steps) {
+      const double usual = static_cast<double>(lane.usual_steps) / static_cast<double>(lane.steps);
+      lane.promise_s = std::min(lane.promise_s, (usual - 1.0) * lane.spent_s);
+    }
     if (current_ == 0) sweep_s_ = lane.spent_s / static_cast<double>(lane.steps);
     return choose();
   }
@@ -148,7 +153,7 @@ class Automatic final : public Iteration {
     for (std::size_t k = 0; k < lanes_.size(); ++k) {
       const Lane& lane = lanes_[k];
       // What stopped may start again from a better iterate.
-      const bool stuck = lane.over && !(lane.hands_over && best_eta_ < kHandover * lane.eta);
+      const bool stuck = lane.over && !(best_eta_ < lane.handover * lane.eta);
       if (stuck) continue;
       const double promise = lane.steps == 0 ? lane.first_promise * sweep_s_
                              : lane.over     ? kNoPromise * lane.spent_s
@@ -160,7 +165,7 @@ class Automatic final : public Iteration {
     }
     if (chosen == lanes_.size()) return State::kStalled;
     lanes_[chosen].over = false;
-    if (chosen != current_ || lanes_[chosen].eta > best_eta_) {
+    if (chosen != current_ || best_eta_ < lanes_[chosen].handover * lanes_[chosen].eta) {
       begin_turn(chosen);
     } else {
       turn_s_ = 0.0;
@@ -177,7 +182,6 @@ class Automatic final : public Iteration {
   double best_eta_ = kInfinity;
   double sweep_s_ = 0.0;  // of Gauss-Seidel
   double turn_s_ = 0.0, turn_from_ = kInfinity;
-  int turn_steps_ = 0;
 };
 
 }  // namespace

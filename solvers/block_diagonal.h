@@ -33,19 +33,27 @@ class BlockDiagonal {
     return {values_.data() + begin_[k], dims_[k], dims_[k]};
   }
 
-  /// The product with a vector of one entry a row.
+  /// The products with a vector of one entry a row.
   Eigen::VectorXd operator*(const Eigen::VectorXd& x) const {
+    return product(x, [this](int i) { return (*this)[i]; });
+  }
+  Eigen::VectorXd transpose_times(const Eigen::VectorXd& x) const {
+    return product(x, [this](int i) { return (*this)[i].transpose(); });
+  }
+
+ private:
+  template <class BlockOf>
+  Eigen::VectorXd product(const Eigen::VectorXd& x, const BlockOf& block) const {
     Eigen::VectorXd y(x.size());
     Eigen::Index at = 0;
     for (int i = 0; i < count(); ++i) {
       const int dim = dims_[static_cast<std::size_t>(i)];
-      y.segment(at, dim).noalias() = (*this)[i] * x.segment(at, dim);
+      y.segment(at, dim).noalias() = block(i) * x.segment(at, dim);
       at += dim;
     }
     return y;
   }
 
- private:
   std::vector<int> dims_;
   std::vector<std::size_t> begin_;
   std::vector<double> values_;

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,25 +21,32 @@ using problems::Cone;
 using problems::Problem;
 using State = Iteration::State;
 
-constexpr double kToBoundary = 0.995;  // share of the way to the cone's boundary
-constexpr double kHuge = 1e8;          // Z of a tangential component that does not take part
+constexpr double kToBoundary = 0.995;                     // share of the way to the cone's boundary
 constexpr double kLeastPush = 1e-12, kLargestPush = 1.0;  // into the interior, as shares of U
+// Cones of less mobility than this share of the largest start from no larger a reaction.
+constexpr double kLeastMobility = 1e-4;
 constexpr double kInside = 4e-16;  // least relative distance from the boundary
-constexpr double kStatic = 1e-12;  // regularisation of Z, in units of lambda
-constexpr int kRefinements = 10;
+constexpr int kRefinements = 3;
+constexpr double kRegularisation = 1e-12;  // of W, as a share of the mobility
+constexpr double kFine = 1e-10;            // a larger one asks for the finer form
+constexpr double kRefined = 1e-13;         // relative residual that needs no refinement
+constexpr double kRounding = 2e-15;        // of a sum, as a share of the sum of its terms' sizes
 constexpr int kShortenings = 8;
 constexpr double kShortestStep = 1e-8;
 
-// (W + Z) x = b, or (Z + C W) x = b, whichever matrix was chosen.
+// (I + R C W R^T) y = z, by whichever matrix was chosen; C = I where the system is symmetric.
 class System {
  public:
-  System(const Problem& problem, IpmForm form, bool symmetric) : problem_(problem) {
+  System(const Problem& problem, IpmForm form, bool symmetric)
+      : problem_(problem), identity_(problem), L_(problem), S_(problem), SC_(problem) {
     if (!symmetric) {
-      general_ = std::make_unique<GeneralSystem>(problem, GeneralSystem::Form::kAuto);
+      general_ = std::make_unique<GeneralSystem>(problem, GeneralSystem::Form::kAuto, true);
+      for (int i = 0; i < identity_.count(); ++i) identity_[i].setIdentity();
       return;
     }
     bool kkt = form == IpmForm::kKkt;
-    if (form == IpmForm::kAuto && problem.is_primal()) {
+    may_switch_ = form == IpmForm::kAuto && problem.is_primal();
+    if (may_switch_) {
       kkt = KktSystem::nonzeros(problem) < NormalSystem::nonzeros(problem);
     }
     if (kkt) {
@@ -48,22 +56,47 @@ class System {
     }
   }
 
-  bool factorize(const BlockDiagonal& Z, const BlockDiagonal& inverse_Z, const BlockDiagonal& C) {
-    if (general_) return general_->factorize(Z, C);
-    if (kkt_) return kkt_->factorize(Z);
-    inverse_Z_ = &inverse_Z;
-    return normal_->factorize(inverse_Z);
+  // The quasidefinite form from here on: near the solution the normal equations lose what R, very
+  // large on some cones and very small on others, makes cancel in them.
+  bool can_be_finer() const { return may_switch_ && normal_ != nullptr; }
+  void be_finer(const Problem& problem) {
+    normal_.reset();
+    kkt_ = std::make_unique<KktSystem>(problem);
   }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
-    if (general_) return general_->solve(b);
-    if (kkt_) return kkt_->solve(b);
-    return normal_->solve(*inverse_Z_ * b);
+  // I + R C W R^T + delta R R^T = L (I + S C W S^T) L^T with S = L^-1 R, L L^T = I + delta R R^T:
+  // what is factorised has no weight above 1 / delta.
+  bool factorize(const BlockDiagonal& R, const BlockDiagonal& C) {
+    for (int i = 0; i < R.count(); ++i) {
+      const double delta = kRegularisation / problem_.mobility()(i);
+      Eigen::MatrixXd bounded = delta * R[i] * R[i].transpose();
+      bounded.diagonal().array() += 1.0;
+      L_[i] = bounded.llt().matrixL();
+      S_[i] = L_[i].triangularView<Eigen::Lower>().solve(R[i]);
+    }
+    if (kkt_) return kkt_->factorize(S_);
+    if (normal_) return normal_->factorize_root(S_);
+    for (int i = 0; i < R.count(); ++i) SC_[i].noalias() = S_[i] * C[i];
+    return general_->factorize(identity_, SC_, &S_);
+  }
+
+  Eigen::VectorXd solve(Eigen::VectorXd z) const {
+    for (int i = 0; i < L_.count(); ++i) {
+      auto part = z.segment(problem_.start(i), L_[i].rows());
+      L_[i].triangularView<Eigen::Lower>().solveInPlace(part);
+    }
+    z = kkt_ ? kkt_->solve(z) : normal_ ? normal_->solve_root(z) : general_->solve(z);
+    for (int i = 0; i < L_.count(); ++i) {
+      auto part = z.segment(problem_.start(i), L_[i].rows());
+      L_[i].transpose().triangularView<Eigen::Upper>().solveInPlace(part);
+    }
+    return z;
   }
 
  private:
   const Problem& problem_;
-  const BlockDiagonal* inverse_Z_ = nullptr;
+  BlockDiagonal identity_, L_, S_, SC_;
+  bool may_switch_ = false;
   std::unique_ptr<NormalSystem> normal_;
   std::unique_ptr<KktSystem> kkt_;
   std::unique_ptr<GeneralSystem> general_;
@@ -76,9 +109,7 @@ class InteriorPoint final : public ConvexIteration {
       : problem_(problem),
         coulomb_(coulomb),
         system_(problem, form, !coulomb),
-        Z_(problem),
-        regular_Z_(problem),
-        inverse_Z_(problem),
+        R_(problem),
         C_(problem),
         scalings_(static_cast<std::size_t>(problem.cone_count())) {}
 
@@ -99,7 +130,8 @@ class InteriorPoint final : public ConvexIteration {
       r_.segment(at, dim) = projected;
       x_.segment(at, dim) = lambda * (projected - z);
       // As far from the boundary in either cone, whatever mu.
-      r_(at) += push / lambda * std::max(1.0, 1.0 / std::max(mu, 0.1));
+      const double size = std::max(lambda, kLeastMobility * problem_.mobility().maxCoeff());
+      r_(at) += push / size * std::max(1.0, 1.0 / std::max(mu, 0.1));
       x_(at) += push * std::max(1.0, mu);
     }
     u_ = problem_.rate(r_);
@@ -112,13 +144,11 @@ class InteriorPoint final : public ConvexIteration {
       const int at = problem_.start(i), dim = cone(i).dim;
       NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
       scaling.set(cone(i).mu, r_.segment(at, dim), x_.segment(at, dim));
-      scaling.write_Z(kHuge * problem_.mobility()(i), Z_[i]);
+      scaling.write_R(R_[i]);
     }
-    if (!Eigen::VectorXd(x_ + r_).allFinite() || !factorize()) {
-      return State::kDiverged;
-    }
-    const Eigen::VectorXd residual = u_ + shift_normals() - x_;
-    direction(residual, 0.0, 0.0);
+    const Eigen::VectorXd residual = residual_above_rounding();
+    if (!residual.allFinite()) return State::kDiverged;
+    if (!affine_direction(residual)) return State::kStalled;
     const double affine = step_length(1.0);
     const double sigma = std::pow(1.0 - affine, 3);
     direction((1.0 - sigma) * residual, sigma * nu_, affine * affine);
@@ -145,16 +175,6 @@ class InteriorPoint final : public ConvexIteration {
   const Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
   double scale() const { return problem_.rate_scale() > 0.0 ? problem_.rate_scale() : 1.0; }
 
-  // Of Z + kStatic lambda I: refinement against Z itself makes good for it.
-  bool factorize() {
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      regular_Z_[i] = Z_[i];
-      regular_Z_[i].diagonal().array() += kStatic * problem_.mobility()(i);
-      inverse_Z_[i] = regular_Z_[i].inverse();
-    }
-    return system_.factorize(regular_Z_, inverse_Z_, C_);
-  }
-
   // Gap, shift and its derivative at the current iterate.
   void update() {
     nu_ = r_.dot(x_) / std::max(problem_.cone_count(), 1);
@@ -177,42 +197,87 @@ class InteriorPoint final : public ConvexIteration {
     error_ = convex_error(problem_, posed_, r_, u_);
   }
 
+  // e, its entries of the size of the rounding in u taken as zero: where x is smaller than that
+  // they would swamp the direction.
+  Eigen::VectorXd residual_above_rounding() const {
+    const Eigen::VectorXd terms =
+        problem_.is_primal()
+            ? Eigen::VectorXd(problem_.H().cwiseAbs() * problem_.velocity(r_).cwiseAbs() +
+                              problem_.w().cwiseAbs())
+            : Eigen::VectorXd(problem_.W().cwiseAbs() * r_.cwiseAbs() + problem_.q().cwiseAbs());
+    Eigen::VectorXd e = u_ + shift_normals() - x_;
+    for (Eigen::Index row = 0; row < e.size(); ++row) {
+      if (std::abs(e(row)) <= kRounding * terms(row)) e(row) = 0.0;
+    }
+    return e;
+  }
+
   Eigen::VectorXd shift_normals() const {
     Eigen::VectorXd t = Eigen::VectorXd::Zero(problem_.rows());
     for (int i = 0; i < problem_.cone_count(); ++i) t(problem_.start(i)) = posed_(i);
     return t;
   }
 
-  // (C W + Z) dr = g - e, dx = C W dr + e, with N drho + N^-1 dxi = lambda \ (target e - lambda o
-  // lambda - correction * second-order term of the last direction).
-  void direction(const Eigen::VectorXd& residual, double target, double correction) {
-    Eigen::VectorXd g = Eigen::VectorXd::Zero(problem_.rows());
+  // False where the system has no factor in doubles.
+  bool affine_direction(const Eigen::VectorXd& residual) {
+    const bool factorised = system_.factorize(R_, C_);
+    if (factorised && direction(residual, 0.0, 0.0) <= kFine) return true;
+    if (!system_.can_be_finer()) return factorised;
+    system_.be_finer(problem_);
+    if (!system_.factorize(R_, C_)) return false;
+    direction(residual, 0.0, 0.0);
+    return true;
+  }
+
+  // dr~ + dx~ = lambda \ (target - lambda o lambda - correction * last dx~ o last dr~) with
+  // dx = C W dr + e gives (I + R C W R^T) dr~ = that - R e, refined against W itself.
+  // Returns the relative residual that is left.
+  double direction(const Eigen::VectorXd& residual, double target, double correction) {
+    Eigen::VectorXd z = Eigen::VectorXd::Zero(problem_.rows());
     for (int i = 0; i < problem_.cone_count(); ++i) {
-      const int at = problem_.start(i), dim = cone(i).dim;
       const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
+      const Eigen::Index at = problem_.start(i), size = scaling.size();
       Eigen::VectorXd c = -jordan_product(scaling.lambda(), scaling.lambda());
       c(0) += target;
       if (correction > 0.0) {
-        c -= correction * jordan_product(scaling.scaled_x(dx_.segment(at, dim)),
-                                         scaling.scaled_r(dr_.segment(at, dim)));
+        c -=
+            correction * jordan_product(scaled_dx_.segment(at, size), scaled_dr_.segment(at, size));
       }
-      g.segment(at, dim) = scaling.unscaled_x(jordan_divide(scaling.lambda(), c));
-      if (scaling.size() < dim) g.segment(at + 1, dim - 1) = residual.segment(at + 1, dim - 1);
+      z.segment(at, size) = jordan_divide(scaling.lambda(), c);
     }
-    const Eigen::VectorXd rhs = g - residual;
-    dr_ = system_.solve(rhs);
-    Eigen::VectorXd CWdr = C_ * problem_.apply_delassus(dr_);
-    double left = (rhs - CWdr - Z_ * dr_).norm();
-    for (int k = 0; k < kRefinements && left > 1e-14 * rhs.norm(); ++k) {
-      const Eigen::VectorXd better = dr_ + system_.solve(rhs - CWdr - Z_ * dr_);
-      const Eigen::VectorXd CWbetter = C_ * problem_.apply_delassus(better);
-      const double left_then = (rhs - CWbetter - Z_ * better).norm();
-      if (!(left_then < 0.5 * left)) break;
-      dr_ = better;
-      CWdr = CWbetter;
+    const Eigen::VectorXd rhs = z - R_ * residual;
+    auto move = [&](const Eigen::VectorXd& scaled) {
+      scaled_dr_ = scaled;
+      dr_ = R_.transpose_times(scaled);
+      du_ = problem_.apply_delassus(dr_);
+      dx_ = C_ * du_;
+      return Eigen::VectorXd(rhs - scaled - R_ * dx_);
+    };
+    Eigen::VectorXd left = move(system_.solve(rhs));
+    for (int k = 0; k < kRefinements && left.norm() > kRefined * rhs.norm(); ++k) {
+      const Eigen::VectorXd before = scaled_dr_;
+      const Eigen::VectorXd left_then = move(before + system_.solve(left));
+      if (!(left_then.norm() < left.norm())) {
+        move(before);
+        break;
+      }
       left = left_then;
     }
-    dx_ = CWdr + residual;
+    dx_ += residual;
+    scaled_dx_ = z - scaled_dr_;
+    return left.norm() / std::max(rhs.norm(), std::numeric_limits<double>::min());
+  }
+
+  // The longest step that keeps r and x in their cones.
+  double step_length(double longest) const {
+    double step = longest;
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
+      const Eigen::Index at = problem_.start(i), size = scaling.size();
+      step = longest_step(scaling.lambda(), scaled_dr_.segment(at, size), step);
+      step = longest_step(scaling.lambda(), scaled_dx_.segment(at, size), step);
+    }
+    return step;
   }
 
   // Rounding may put an iterate on the boundary of its cone, where the scaling does not exist.
@@ -230,28 +295,15 @@ class InteriorPoint final : public ConvexIteration {
     }
   }
 
-  // The longest step that keeps r and x in their cones.
-  double step_length(double longest) const {
-    double step = longest;
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      const int at = problem_.start(i), dim = cone(i).dim;
-      const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
-      step = longest_step(scaling.lambda(), scaling.scaled_r(dr_.segment(at, dim)), step);
-      step = longest_step(scaling.lambda(), scaling.scaled_x(dx_.segment(at, dim)), step);
-    }
-    return step;
-  }
-
   // The residual of the nonlinear x = u + theta |u_t|_eps e_n must fall, or stay below the gap.
   double shorten(double step, double share, double before) const {
     step = std::min(step, 1.0);
     const double rounding = 1e-15 * std::max(u_.norm(), scale());
-    const Eigen::VectorXd du = problem_.apply_delassus(dr_);
     for (int trial = 0; trial < kShortenings; ++trial) {
       double square = 0.0;
       for (int i = 0; i < problem_.cone_count(); ++i) {
         const int at = problem_.start(i), dim = cone(i).dim;
-        const Eigen::VectorXd u = u_.segment(at, dim) + step * du.segment(at, dim);
+        const Eigen::VectorXd u = u_.segment(at, dim) + step * du_.segment(at, dim);
         const double root = std::sqrt(std::max(nu_, 0.0) * problem_.mobility()(i));
         const double eps = root * std::min(1.0, root / scale());
         Eigen::VectorXd e = u - x_.segment(at, dim) - step * dx_.segment(at, dim);
@@ -271,13 +323,14 @@ class InteriorPoint final : public ConvexIteration {
   const Problem& problem_;
   bool coulomb_;
   System system_;
-  BlockDiagonal Z_, regular_Z_, inverse_Z_, C_;
+  BlockDiagonal R_, C_;
   std::vector<NtScaling> scalings_;
-  Eigen::VectorXd posed_;      // t
-  Eigen::VectorXd r_, x_, u_;  // x -> u + t e_n
-  Eigen::VectorXd dr_, dx_;
-  double nu_ = 0.0;         // r.x / cones
-  double smoothing_ = 0.0;  // largest eps
+  Eigen::VectorXd posed_;                  // t
+  Eigen::VectorXd r_, x_, u_;              // x -> u + t e_n
+  Eigen::VectorXd dr_, dx_, du_;           // of the last direction; du = W dr
+  Eigen::VectorXd scaled_dr_, scaled_dx_;  // dr~, dx~
+  double nu_ = 0.0;                        // r.x / cones
+  double smoothing_ = 0.0;                 // largest eps
   double error_ = 0.0;
 };
 

@@ -6,9 +6,9 @@ namespace conebench::solvers {
 
 /// Which linear system an interior point method factorises.
 enum class IpmForm {
-  kAuto,    ///< of the two below, the one whose matrix has fewer nonzeros
-  kNormal,  ///< (M + H^T Z^-1 H), or (I + G W G) in the reduced form (linear/normal_system.h)
-  kKkt,     ///< [M, H^T; H, -Z], quasidefinite (linear/kkt_system.h); primal form only
+  kAuto,    ///< the one with fewer nonzeros; kKkt for good once kNormal has lost its accuracy
+  kNormal,  ///< M + H^T R^T R H, or I + R W R^T in the reduced form (linear/normal_system.h)
+  kKkt,     ///< [M, H^T R^T; R H, -I], quasidefinite (linear/kkt_system.h); primal form only
 };
 
 /// Our primal-dual interior point for second-order cones: Nesterov-Todd scaling in closed form,
@@ -17,7 +17,9 @@ enum class IpmForm {
 /// Iterates  r in int K, x in int K*, with M v = f + H^T r kept exactly (u = W r + q), so that one
 ///           residual, e = u + t e_n - x, and the gap r.x are driven to zero. r_t of cones with
 ///           mu = 0 is 0.
-/// Step      dx = W dr + e and dx_i + Z_i dr_i = g_i give (W + Z) dr = g - e: one factorisation,
+/// Step      in scaled directions dx~ = R dx, dr = R^T dr~, R_i = N_i^-1 T_i
+/// (solvers/nt_scaling.h),
+///           dx = W dr + e and dr~ + dx~ = z give (I + R W R^T) dr~ = z - R e: one factorisation,
 ///           two solves: affine, which could go the share `step`; then towards sigma nu,
 ///           sigma = (1 - step)^3, with e reduced by 1 - sigma and step^2 of Mehrotra's
 ///           second-order term, so that a blocked direction turns into pure centring. Each is
@@ -35,7 +37,7 @@ std::unique_ptr<ConvexIteration> make_interior_point(const problems::Problem& pr
 
 /// `ipm`: the same iteration with the De Saxce term as an unknown. x = u + theta |u_t|_eps e_n with
 /// |a|_eps = sqrt(|a|^2 + eps^2), so that dx = C W dr + e, C_i = I + theta e_n (u_t / |u_t|_eps)^T,
-/// and (Z + C W) dr = g - e is not symmetric (linear/general_system.h). eps shrinks with the gap:
+/// and I + R C W R^T is not symmetric (linear/general_system.h). eps shrinks with the gap:
 /// eps_i = sqrt(nu lambda_i) min(1, sqrt(nu lambda_i) / U), nu the mean gap of a cone; its last
 /// value is in the notes. A step is shortened until it lowers the residual e or keeps it below the
 /// gap. No convergence proof: the problem is not convex. For theta = 0 it is the convex method.

@@ -50,28 +50,13 @@ VectorXd NtScaling::apply(const VectorXd& a, bool inverse) const {
   return (inverse ? 1.0 / eta_ : eta_) * result;
 }
 
-void NtScaling::write_Z(double huge, Eigen::Ref<Eigen::MatrixXd> Z) const {
-  Z.setZero();
-  Z.diagonal().setConstant(huge);
+void NtScaling::write_R(Eigen::Ref<Eigen::MatrixXd> R) const {
+  R.setZero();
   for (Index k = 0; k < size(); ++k) {
     VectorXd unit = VectorXd::Zero(size());
-    unit(k) = 1.0 / diagonal_(k);
-    Z.col(k).head(size()) = apply(apply(unit, false), false).cwiseQuotient(diagonal_);
+    unit(k) = diagonal_(k);
+    R.col(k).head(size()) = apply(unit, true);
   }
-}
-
-VectorXd NtScaling::scaled_r(const VectorXd& dr) const {
-  return apply(dr.head(size()).cwiseQuotient(diagonal_), false);
-}
-
-VectorXd NtScaling::scaled_x(const VectorXd& dx) const {
-  return apply(dx.head(size()).cwiseProduct(diagonal_), true);
-}
-
-VectorXd NtScaling::unscaled_x(const VectorXd& scaled) const {
-  VectorXd x = VectorXd::Zero(dim_);
-  x.head(size()) = apply(scaled, false).cwiseQuotient(diagonal_);
-  return x;
 }
 
 VectorXd jordan_product(const VectorXd& a, const VectorXd& b) {

@@ -24,13 +24,8 @@ class NtScaling {
   Eigen::Index size() const { return lambda_.size(); }
   const Eigen::VectorXd& lambda() const { return lambda_; }
 
-  /// Z (d x d) with dx + Z dr = ...: T^-1 N^2 T^-T. For a half line only Z(0, 0) counts; the rest
-  /// of the diagonal is `huge`, which holds r_t at 0.
-  void write_Z(double huge, Eigen::Ref<Eigen::MatrixXd> Z) const;
-
-  Eigen::VectorXd scaled_r(const Eigen::VectorXd& dr) const;        ///< N T^-T dr
-  Eigen::VectorXd scaled_x(const Eigen::VectorXd& dx) const;        ///< N^-1 T dx
-  Eigen::VectorXd unscaled_x(const Eigen::VectorXd& scaled) const;  ///< T^-1 N scaled, d entries
+  /// R = N^-1 T (d x d; of a half line only R(0, 0) is not zero): dx~ = R dx, dr = R^T dr~.
+  void write_R(Eigen::Ref<Eigen::MatrixXd> R) const;
 
  private:
   Eigen::VectorXd apply(const Eigen::VectorXd& a, bool inverse) const;  // N a or N^-1 a

@@ -55,7 +55,7 @@ struct Result {
   Status status = Status::kUnsupported;
   Eigen::VectorXd r;               ///< r' of the standard problem, rows() entries [force_unit]
   std::int64_t iterations = 0;     ///< done, of the solver's outermost loop
-  Eigen::VectorXd certificate;     ///< kInfeasible: y, one entry a cone (solvers/certificate.h)
+  Eigen::VectorXd certificate;     ///< kInfeasible: y, rows() entries (solvers/certificate.h)
   double setup_s = 0.0;            ///< clock time before the first iteration
   double solve_s = 0.0;            ///< clock time of the iterations; setup_s not included
   std::vector<std::string> notes;  ///< what a reader of the table should know

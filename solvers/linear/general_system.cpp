@@ -62,8 +62,12 @@ struct GeneralSystem::Reduced {
     lu.analyse(scatter.matrix);
   }
 
-  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B) {
+  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B, const BlockDiagonal* R) {
     scatter.restart();
+    std::vector<int> cone_at(static_cast<std::size_t>(problem.rows()), 0);
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      cone_at[static_cast<std::size_t>(problem.start(i))] = i;
+    }
     Eigen::MatrixXd product;
     for (int i = 0; i < problem.cone_count(); ++i) {
       const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
@@ -71,6 +75,7 @@ struct GeneralSystem::Reduced {
       const double* block = W.blocks(i);
       for (const auto& entry : W.entries(i)) {
         product.noalias() = B[i] * Eigen::Map<const RowMajorMatrix>(block, dim, entry.dim);
+        if (R) product *= (*R)[cone_at[static_cast<std::size_t>(entry.row)]].transpose();
         for (Eigen::Index k = 0; k < product.size(); ++k) scatter.add(product.data()[k]);
         block += dim * entry.dim;
       }
@@ -87,24 +92,26 @@ struct GeneralSystem::Reduced {
 };
 
 struct GeneralSystem::Full {
-  explicit Full(const Problem& given) : problem(given) {
+  Full(const Problem& given, bool right_scaled) : problem(given) {
     Triplets entries;
-    walk(BlockDiagonal(problem), BlockDiagonal(problem),
+    const BlockDiagonal none(problem);
+    walk(none, none, right_scaled ? &none : nullptr,
          [&](int row, int column, double) { entries.emplace_back(row, column, 0.0); });
     scatter.learn(problem.dofs() + problem.rows(), entries);
     lu.analyse(scatter.matrix);
   }
 
-  // Every entry, always in the same order.
+  // Every entry of [M, -H^T R^T; B H, A], always in the same order; R null is the identity.
   template <class Function>
-  void walk(const BlockDiagonal& A, const BlockDiagonal& B, const Function& function) const {
+  void walk(const BlockDiagonal& A, const BlockDiagonal& B, const BlockDiagonal* R,
+            const Function& function) const {
     const int dofs = problem.dofs();
     for (int row = 0; row < dofs; ++row) {
       for (SparseMatrix::InnerIterator it(problem.M(), row); it; ++it) {
         function(row, static_cast<int>(it.col()), it.value());
       }
     }
-    for (int row = 0; row < problem.rows(); ++row) {
+    for (int row = 0; row < problem.rows() && !R; ++row) {
       for (SparseMatrix::InnerIterator it(problem.H(), row); it; ++it) {
         function(static_cast<int>(it.col()), dofs + row, -it.value());
       }
@@ -115,16 +122,18 @@ struct GeneralSystem::Full {
         for (int b = 0; b < dim; ++b) {
           function(dofs + at + a, dofs + at + b, A[i](a, b));
           for (SparseMatrix::InnerIterator it(problem.H(), at + b); it; ++it) {
-            function(dofs + at + a, static_cast<int>(it.col()), B[i](a, b) * it.value());
+            const int column = static_cast<int>(it.col());
+            function(dofs + at + a, column, B[i](a, b) * it.value());
+            if (R) function(column, dofs + at + a, -(*R)[i](a, b) * it.value());
           }
         }
       }
     }
   }
 
-  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B) {
+  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B, const BlockDiagonal* R) {
     scatter.restart();
-    walk(A, B, [&](int, int, double value) { scatter.add(value); });
+    walk(A, B, R, [&](int, int, double value) { scatter.add(value); });
     return lu.factorize(scatter.matrix);
   }
 
@@ -139,22 +148,23 @@ struct GeneralSystem::Full {
   Lu lu;
 };
 
-GeneralSystem::GeneralSystem(const Problem& problem, Form form) {
+GeneralSystem::GeneralSystem(const Problem& problem, Form form, bool right_scaled) {
   bool full = form == Form::kFull;
   if (form == Form::kAuto && problem.is_primal()) {
     full = problem.delassus().nonZeros() >
            problem.M().nonZeros() + 2 * problem.H().nonZeros() + 3 * problem.rows();
   }
   if (full) {
-    full_ = std::make_unique<Full>(problem);
+    full_ = std::make_unique<Full>(problem, right_scaled);
   } else {
     reduced_ = std::make_unique<Reduced>(problem);
   }
 }
 GeneralSystem::~GeneralSystem() = default;
 
-bool GeneralSystem::factorize(const BlockDiagonal& A, const BlockDiagonal& B) {
-  return full_ ? full_->factorize(A, B) : reduced_->factorize(A, B);
+bool GeneralSystem::factorize(const BlockDiagonal& A, const BlockDiagonal& B,
+                              const BlockDiagonal* R) {
+  return full_ ? full_->factorize(A, B, R) : reduced_->factorize(A, B, R);
 }
 
 Eigen::VectorXd GeneralSystem::solve(const Eigen::VectorXd& b) const {

@@ -15,12 +15,13 @@ class GeneralSystem {
  public:
   enum class Form { kAuto, kReduced, kFull };
 
-  /// Precondition: a primal problem when `form` is kFull.
-  GeneralSystem(const problems::Problem& problem, Form form);
+  /// Precondition: a primal problem when `form` is kFull. With `right_scaled` the system is
+  /// (A + B W R^T) y = z and factorize() wants R.
+  GeneralSystem(const problems::Problem& problem, Form form, bool right_scaled = false);
   ~GeneralSystem();
 
   /// False when the matrix is singular to working precision; solve() must not be called then.
-  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B);
+  bool factorize(const BlockDiagonal& A, const BlockDiagonal& B, const BlockDiagonal* R = nullptr);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:

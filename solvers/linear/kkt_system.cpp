@@ -1,6 +1,8 @@
 #include "solvers/linear/kkt_system.h"
 
 #include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <vector>
 
 namespace conebench::solvers {
 namespace {
@@ -20,53 +22,64 @@ struct KktSystem::Parts {
         if (it.col() <= row) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
       }
     }
-    for (int i = 0; i < problem.cone_count(); ++i) {
-      const int dim = problem.cones()[static_cast<std::size_t>(i)].dim, at = problem.start(i);
-      for (int a = 0; a < dim; ++a) {
-        for (SparseMatrix::InnerIterator it(problem.H(), at + a); it; ++it) {
-          entries.emplace_back(dofs + at + a, static_cast<int>(it.col()), it.value());
-        }
-        for (int b = 0; b <= a; ++b) entries.emplace_back(dofs + at + a, dofs + at + b, 0.0);
-      }
+    walk(BlockDiagonal(problem),
+         [&](int row, int column, double) { entries.emplace_back(row, column, 0.0); });
+    for (int row = 0; row < problem.rows(); ++row) {
+      entries.emplace_back(dofs + row, dofs + row, -1.0);
     }
     matrix.resize(dofs + problem.rows(), dofs + problem.rows());
     matrix.setFromTriplets(entries.begin(), entries.end());
+    mass = matrix;
     factor.analyzePattern(matrix);
   }
 
-  bool factorize(const BlockDiagonal& Z) {
+  // Every entry of R H, below M.
+  template <class Function>
+  void walk(const BlockDiagonal& R, const Function& function) const {
     for (int i = 0; i < problem.cone_count(); ++i) {
-      const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
-      const int at = problem.dofs() + problem.start(i);
-      for (int a = 0; a < dim; ++a) {
-        for (int b = 0; b <= a; ++b) matrix.coeffRef(at + a, at + b) = -Z[i](a, b);
+      const int dim = problem.cones()[static_cast<std::size_t>(i)].dim, at = problem.start(i);
+      for (int b = 0; b < dim; ++b) {
+        for (SparseMatrix::InnerIterator it(problem.H(), at + b); it; ++it) {
+          for (int a = 0; a < dim; ++a) {
+            function(problem.dofs() + at + a, static_cast<int>(it.col()), R[i](a, b) * it.value());
+          }
+        }
       }
     }
+  }
+
+  bool factorize(const BlockDiagonal& R) {
+    matrix.coeffs() = mass.coeffs();
+    walk(R, [&](int row, int column, double value) { matrix.coeffRef(row, column) += value; });
     factor.factorize(matrix);
     return factor.info() == Eigen::Success;
   }
 
   const Problem& problem;
-  Matrix matrix;
+  Matrix matrix, mass;
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor;
 };
 
 KktSystem::KktSystem(const Problem& problem) : parts_(std::make_unique<Parts>(problem)) {}
 KktSystem::~KktSystem() = default;
 
-bool KktSystem::factorize(const BlockDiagonal& Z) { return parts_->factorize(Z); }
+bool KktSystem::factorize(const BlockDiagonal& R) { return parts_->factorize(R); }
 
-// M y = H^T x and H y + Z x = b: the unknowns are (y, -x).
-Eigen::VectorXd KktSystem::solve(const Eigen::VectorXd& b) const {
+// M v = H^T R^T y and R H v + y = z: the unknowns are (v, -y).
+Eigen::VectorXd KktSystem::solve(const Eigen::VectorXd& z) const {
   Eigen::VectorXd whole = Eigen::VectorXd::Zero(parts_->matrix.rows());
-  whole.tail(b.size()) = b;
-  return -parts_->factor.solve(whole).tail(b.size());
+  whole.tail(z.size()) = z;
+  return -parts_->factor.solve(whole).tail(z.size());
 }
 
 std::int64_t KktSystem::nonzeros(const Problem& problem) {
-  std::int64_t blocks = 0;
-  for (const problems::Cone& cone : problem.cones()) blocks += cone.dim * (cone.dim + 1) / 2;
-  return problem.M().nonZeros() / 2 + problem.H().nonZeros() + blocks;
+  std::int64_t coupling = 0;
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim, at = problem.start(i);
+    const int* starts = problem.H().outerIndexPtr();
+    coupling += dim * (starts[at + dim] - starts[at]) / std::max(dim, 1);
+  }
+  return problem.M().nonZeros() / 2 + coupling + problem.rows();
 }
 
 }  // namespace conebench::solvers

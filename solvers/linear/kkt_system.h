@@ -4,18 +4,18 @@
 
 namespace conebench::solvers {
 
-/// Solves (W + Z) x = b for symmetric positive definite block diagonal Z, W = H M^-1 H^T, through
-/// the quasidefinite matrix [M, H^T; H, -Z], which has an LDL^T factor in any order. Sparser than
-/// M + H^T Z^-1 H where cones touch many dofs. Primal form only.
-/// Source  Vanderbei, SIAM J. Optim. 5(1) (1995) 100-113 (not checked).
+/// Solves (I + R W R^T) y = z for block diagonal R, W = H M^-1 H^T, through the quasidefinite
+/// matrix [M, H^T R^T; R H, -I], which has an LDL^T factor in any order. Sparser than M + H^T R^T R
+/// H where cones touch many dofs. Primal form only. Source  Vanderbei, SIAM J. Optim. 5(1) (1995)
+/// 100-113 (not checked).
 class KktSystem {
  public:
   explicit KktSystem(const problems::Problem& problem);
   ~KktSystem();
 
   /// False when the factorisation fails.
-  bool factorize(const BlockDiagonal& Z);
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  bool factorize(const BlockDiagonal& R);
+  Eigen::VectorXd solve(const Eigen::VectorXd& z) const;
 
   /// Nonzeros of the lower triangle, to compare with another form's.
   static std::int64_t nonzeros(const problems::Problem& problem);

@@ -140,9 +140,26 @@ struct NormalSystem::Primal {
     return b - E * (problem.H() * y);
   }
 
+  bool factorize_root(const BlockDiagonal& root) {
+    E = root;
+    matrix.coeffs() = mass.coeffs();
+    Eigen::MatrixXd RH, dense;
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      RH.noalias() = root[i] * rows.block(i);
+      dense.noalias() = RH.transpose() * RH;
+      add_lower(rows.dofs(i), dense, matrix);
+    }
+    return cholesky.factorize(matrix);
+  }
+
+  Eigen::VectorXd solve_root(const Eigen::VectorXd& z) const {
+    const Eigen::VectorXd b = problem.H().transpose() * E.transpose_times(z);
+    return z - E * (problem.H() * cholesky.solve(b));
+  }
+
   const Problem& problem;
   ConeRows rows;
-  BlockDiagonal E;
+  BlockDiagonal E;  // or its root R
   Matrix matrix, mass;
   Cholesky cholesky;
 };
@@ -182,19 +199,27 @@ struct NormalSystem::Reduced {
   }
 
   bool factorize(const BlockDiagonal& E) {
-    std::vector<int> cone_at(static_cast<std::size_t>(problem.rows()), 0);
     for (int i = 0; i < problem.cone_count(); ++i) {
-      cone_at[static_cast<std::size_t>(problem.start(i))] = i;
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(E[i]);
       G[i] = eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
              eigen.eigenvectors().transpose();
+    }
+    return factorize_root(G);
+  }
+
+  // I + R W R^T.
+  bool factorize_root(const BlockDiagonal& R) {
+    G = R;
+    std::vector<int> cone_at(static_cast<std::size_t>(problem.rows()), 0);
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      cone_at[static_cast<std::size_t>(problem.start(i))] = i;
     }
     matrix.coeffs().setZero();
     for (int row = 0; row < problem.rows(); ++row) matrix.coeffRef(row, row) = 1.0;
     for (int i = 0; i < problem.cone_count(); ++i) {
       for_lower_blocks(i, [&](int column, const auto& block) {
         const int j = cone_at[static_cast<std::size_t>(column)];
-        Eigen::MatrixXd scaled = G[i] * block * G[j];
+        Eigen::MatrixXd scaled = G[i] * block * G[j].transpose();
         if (i == j) scaled = (0.5 * (scaled + scaled.transpose())).eval();
         for (Eigen::Index b = 0; b < scaled.cols(); ++b) {
           for (Eigen::Index a = i == j ? b : 0; a < scaled.rows(); ++a) {
@@ -225,6 +250,14 @@ NormalSystem::NormalSystem(const Problem& problem) {
   }
 }
 NormalSystem::~NormalSystem() = default;
+
+bool NormalSystem::factorize_root(const BlockDiagonal& R) {
+  return primal_ ? primal_->factorize_root(R) : reduced_->factorize_root(R);
+}
+
+Eigen::VectorXd NormalSystem::solve_root(const Eigen::VectorXd& z) const {
+  return primal_ ? primal_->solve_root(z) : reduced_->cholesky.solve(z);
+}
 
 bool NormalSystem::factorize(const BlockDiagonal& E) {
   return primal_ ? primal_->factorize(E) : reduced_->factorize(E);

@@ -22,6 +22,11 @@ class NormalSystem {
   bool factorize(const BlockDiagonal& E);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
+  /// The same with E = R^T R for a given root: solves (I + R W R^T) y = z, in which nothing cancels
+  /// however large or small the scalings are. (I + E W) x = b is then x = b - R^T y, R W b = z.
+  bool factorize_root(const BlockDiagonal& R);
+  Eigen::VectorXd solve_root(const Eigen::VectorXd& z) const;
+
   /// Nonzeros of the lower triangle of M + H^T E H, to compare with another form's. Primal only.
   static std::int64_t nonzeros(const problems::Problem& problem);
 

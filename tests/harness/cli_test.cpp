@@ -142,7 +142,7 @@ TEST_F(CommandLineTest, SolversAreListedShownAndChecked) {
   EXPECT_THAT(conebench("solver list").out, HasSubstr("spg"));
   EXPECT_TRUE(nlohmann::json::parse(conebench("solver list --json").out).is_array());
   EXPECT_THAT(conebench("solver show gs").out, HasSubstr("omega"));
-  expect_usage_error("solver show gx", "known: gs");
+  expect_usage_error("solver show gx", "did you mean gs");
   const Ran check = conebench("solver check gs problems");
   EXPECT_EQ(check.code, 0) << check.out;
   EXPECT_THAT(check.out, HasSubstr("pass  made-3d"));

@@ -243,7 +243,7 @@ TEST(Newton, WarmUpStartsFromGaussSeidelSweeps) {
   const auto sweeps = make_gauss_seidel(problem);
   sweeps->start(zero);
   for (int sweep = 0; sweep < 3; ++sweep) sweeps->advance();
-  EXPECT_EQ(newton->r(), sweeps->r());
+  EXPECT_LE((newton->r() - sweeps->r()).norm(), 1e-13 * sweeps->r().norm());
 }
 
 TEST(Newton, FullFormIsRefusedWithoutAMass) {
