@@ -10,8 +10,9 @@ set -euo pipefail
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 build="$here/build"
 packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libfmt-dev libcli11-dev
-  libtomlplusplus-dev libsuitesparse-dev coinor-libipopt-dev libnlopt-dev nlohmann-json3-dev libssl-dev libbenchmark-dev libgtest-dev libgmock-dev
-  libfclib-dev python3)
+  libtomlplusplus-dev nlohmann-json3-dev libssl-dev libsuitesparse-dev coinor-libipopt-dev
+  libnlopt-dev libsiconos-numerics-dev libbenchmark-dev libgtest-dev libgmock-dev libfclib-dev
+  python3 python3-h5py)
 
 say() { echo "conebench.sh: $*" >&2; }
 

@@ -78,7 +78,7 @@ struct Bed {
 };
 
 struct SolverChoice {
-  std::string name = "gs[local=exact]";
+  std::string name = "auto";
   double tol = 1e-5;         ///< on eta
   double time_limit_s = 10;  ///< of one step; a step that it ends depends on the machine
   std::int64_t max_iterations = 1'000'000;  ///< of one step; ends it alike everywhere

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "problems/residual.h"
+#include "solvers/certificate.h"
 
 namespace conebench::harness {
 namespace {
@@ -33,6 +34,18 @@ bool may_be_empty(Status status) {
   return status == Status::kUnsupported || status == Status::kInfeasible;
 }
 
+void check_certificate(const problems::Problem& standard, const Eigen::VectorXd& y,
+                       results::Record& record) {
+  if (solvers::proves_infeasible(standard, y)) return;
+  record.status = Status::kRefuted;
+  record.error =
+      y.size() == 0 ? "the solver says that there is no solution, without a certificate"
+                    : fmt::format(
+                          "the certificate does not prove that there is no solution: its margin is "
+                          "{:.3g}, a proof takes {:.0e}",
+                          solvers::infeasibility_margin(standard, y), solvers::kProof);
+}
+
 }  // namespace
 
 void judge(const problems::Problem& standard, const solvers::Result& result,
@@ -43,7 +56,11 @@ void judge(const problems::Problem& standard, const solvers::Result& result,
   record.setup_s = result.setup_s;
   record.solve_s = result.solve_s;
   record.notes = result.notes;
-  if (result.r.size() == 0 && standard.rows() > 0 && may_be_empty(record.status)) return;
+  const bool answers = result.r.size() > 0 || standard.rows() == 0 || !may_be_empty(record.status);
+  if (record.status == Status::kInfeasible && record.kind != "model") {
+    check_certificate(standard, result.certificate, record);
+  }
+  if (!answers) return;
   if (result.r.size() != standard.rows()) {
     record.status = Status::kBadOutput;
     record.error =

@@ -27,9 +27,14 @@ Measure measure(Eigen::VectorXd per_cone) {
   return m;
 }
 
+// r - P_K(r - a) with a = u_hat / lambda. Inside K it is a itself, which r - (r - a) would lose where
+// r is large.
 template <class Vector>
 Vector natural_map(const Cone& cone, double lambda, const Vector& r, const Vector& u_hat) {
-  Vector projected = r - u_hat / lambda;
+  const Vector step = u_hat / lambda;
+  const Vector moved = r - step;
+  if (moved(0) >= 0.0 && tangential_norm(moved) <= cone.mu * moved(0)) return step;
+  Vector projected = moved;
   project(cone.mu, projected);
   return r - projected;
 }

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
 #ifdef CONEBENCH_SUITESPARSE
 #include <Eigen/CholmodSupport>
 #include <SuiteSparseQR.hpp>
@@ -17,11 +20,18 @@ namespace {
 
 using ColumnMajor = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-// Pivots below this share of the largest column are zero.
-constexpr double kNegligible = 1e-10;
-constexpr int kIterations = 60;
-// A singular value that changes by less than this from one iteration to the next is good enough.
-constexpr double kSettled = 1e-4;
+// Eigenvalues of W below this share of the largest count as 0: rounding of W, or of the geometry.
+constexpr double kNegligible = 1e-12;
+// Pivots below this share of the largest column are zero. Both for W and for S, whose negligible
+// singular values are larger.
+constexpr double kNegligiblePivot = 1e-12;
+constexpr int kLanczosSteps = 60;
+// A coupling below this share of the first diagonal entry ends the Lanczos steps: the space is
+// invariant.
+constexpr double kInvariant = 1e-14;
+// Vectors of the first attempt at the smallest singular values, and inverse iterations with them.
+constexpr int kFirstBlock = 8;
+constexpr int kInverseIterations = 8;
 
 // The first `rank` rows of R in a rank-revealing QR factorisation of A, columns permuted.
 struct Triangle {
@@ -40,7 +50,7 @@ double largest_column(const ColumnMajor& A) {
 #ifdef CONEBENCH_SUITESPARSE
 Triangle factorize(ColumnMajor A) {
   using Index = SuiteSparse_long;
-  const double tolerance = kNegligible * largest_column(A);
+  const double tolerance = kNegligiblePivot * largest_column(A);
   Eigen::SparseMatrix<double, Eigen::ColMajor, Index> wide = A;
   cholmod_sparse view = Eigen::viewAsCholmod(wide);
   cholmod_common common;
@@ -65,57 +75,117 @@ Triangle factorize(ColumnMajor A) {
 Triangle factorize(ColumnMajor A) {
   A.makeCompressed();
   Eigen::SparseQR<ColumnMajor, Eigen::COLAMDOrdering<int> > qr;
-  qr.setPivotThreshold(kNegligible * largest_column(A));
+  qr.setPivotThreshold(kNegligiblePivot * largest_column(A));
   qr.compute(A);
   const int rank = static_cast<int>(qr.rank());
-  return {rank, ColumnMajor(qr.matrixR()).topRows(rank)};
+  const SparseMatrix sorted = qr.matrixR();  // its columns are not
+  return {rank, sorted.topRows(rank)};
 }
 #endif
 
-// The triangular factor whose singular values are those of A that are not negligible.
+// The triangular factor, square, whose singular values are those of A but for pivots of 0.
 Triangle compress(const ColumnMajor& A) {
   const ColumnMajor transposed = A.transpose();
   Triangle triangle = factorize(A.rows() >= A.cols() ? A : transposed);
-  if (triangle.rank < triangle.R.cols()) triangle = factorize(ColumnMajor(triangle.R.transpose()));
+  while (triangle.rank < triangle.R.cols()) {
+    triangle = factorize(ColumnMajor(triangle.R.transpose()));
+  }
   return triangle;
 }
 
-Eigen::VectorXd start_vector(int size) {
+Eigen::MatrixXd random_block(int rows, int columns) {
   std::mt19937 random(1);
-  Eigen::VectorXd x(size);
-  for (double& value : x) value = static_cast<double>(random()) * 0x1p-32 - 0.5;
-  return x.normalized();
+  Eigen::MatrixXd block(rows, columns);
+  for (double& value : block.reshaped()) value = static_cast<double>(random()) * 0x1p-32 - 0.5;
+  return block;
 }
 
-// The largest eigenvalue of a symmetric positive definite map.
+// The largest eigenvalue of a symmetric positive definite map, from below, by Lanczos steps.
+// Without reorthogonalisation eigenvalues come twice, which does not matter here.
 template <class Map>
 double largest_eigenvalue(int size, const Map& map) {
-  Eigen::VectorXd x = start_vector(size);
-  double value = 0.0;
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    x = map(x);
-    const double next = x.norm();
-    x /= next;
-    const bool settled = std::abs(next - value) <= kSettled * next;
-    value = next;
-    if (settled) break;
+  const int most = std::min(size, kLanczosSteps);
+  Eigen::VectorXd diagonal(most), coupling(most);
+  Eigen::VectorXd x = random_block(size, 1).normalized(), before = Eigen::VectorXd::Zero(size);
+  int steps = 0;
+  while (steps < most) {
+    Eigen::VectorXd y = map(x);
+    if (steps > 0) y -= coupling(steps - 1) * before;
+    diagonal(steps) = x.dot(y);
+    y -= diagonal(steps) * x;
+    const double norm = coupling(steps) = y.norm();
+    ++steps;
+    if (norm <= kInvariant * diagonal(0)) break;
+    before = x;
+    x = y / norm;
   }
-  return value;
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> tridiagonal;
+  tridiagonal.computeFromTridiagonal(diagonal.head(steps), coupling.head(steps - 1),
+                                     Eigen::EigenvaluesOnly);
+  return tridiagonal.eigenvalues().maxCoeff();
 }
 
-// (s_max / s_min)^2 of a triangular matrix.
-double squared_condition(const ColumnMajor& R) {
-  const int size = static_cast<int>(R.cols());
-  const auto upper = R.triangularView<Eigen::Upper>();
-  const ColumnMajor transposed = R.transpose();
-  const auto lower = transposed.triangularView<Eigen::Lower>();
-  const double largest = largest_eigenvalue(
-      size, [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(transposed * (R * x)); });
-  const double inverse = largest_eigenvalue(size, [&](const Eigen::VectorXd& x) {
-    return Eigen::VectorXd(upper.solve(Eigen::VectorXd(lower.solve(x))));
-  });
-  return largest * inverse;
-}
+// A square triangular factor and its inverse.
+class Square {
+ public:
+  explicit Square(ColumnMajor R) : R_(std::move(R)), transposed_(R_.transpose()) {}
+
+  int size() const { return static_cast<int>(R_.cols()); }
+
+  double largest_singular_value() const {
+    return std::sqrt(largest_eigenvalue(size(), [this](const Eigen::VectorXd& x) {
+      return Eigen::VectorXd(transposed_ * (R_ * x));
+    }));
+  }
+
+  /// Of those that belong to vectors orthogonal to `null`.
+  double smallest_singular_value(const Eigen::MatrixXd& null) const {
+    auto rest = [&](const Eigen::VectorXd& x) {
+      return Eigen::VectorXd(x - null * (null.transpose() * x));
+    };
+    return 1.0 / std::sqrt(largest_eigenvalue(size(), [&](const Eigen::VectorXd& x) {
+             Eigen::MatrixXd y = rest(x);
+             solve_lower(y);
+             solve_upper(y);
+             return rest(y);
+           }));
+  }
+
+  /// Orthonormal basis of the vectors whose singular values lie below a bound.
+  Eigen::MatrixXd below(double bound) const {
+    for (int block = std::min(kFirstBlock, size());; block = std::min(2 * block, size())) {
+      Eigen::MatrixXd X = below(bound, block);
+      if (X.cols() < block || block == size()) return X;
+    }
+  }
+
+ private:
+  void solve_lower(Eigen::MatrixXd& X) const {
+    transposed_.triangularView<Eigen::Lower>().solveInPlace(X);
+  }
+  void solve_upper(Eigen::MatrixXd& X) const { R_.triangularView<Eigen::Upper>().solveInPlace(X); }
+
+  // As many as there are, or as the block holds: by inverse iterations.
+  Eigen::MatrixXd below(double bound, int block) const {
+    Eigen::MatrixXd X = orthonormal(random_block(size(), block));
+    Eigen::MatrixXd Y;
+    for (int iteration = 1;; ++iteration) {
+      Y = X;
+      solve_lower(Y);
+      if (iteration == kInverseIterations) break;
+      solve_upper(Y);
+      X = orthonormal(Y);
+    }
+    return X.leftCols((bound * Y.colwise().norm().array() > 1.0).count());
+  }
+
+  static Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& X) {
+    return Eigen::HouseholderQR<Eigen::MatrixXd>(X).householderQ() *
+           Eigen::MatrixXd::Identity(X.rows(), X.cols());
+  }
+
+  ColumnMajor R_, transposed_;
+};
 
 }  // namespace
 
@@ -127,13 +197,16 @@ SpectrumAnswer spectrum(const Problem& problem) {
                             ? ColumnMajor(problem.H() * problem.inertia().inverse_root())
                             : ColumnMajor(problem.W());
   Spectrum answer{.null_space = problem.rows()};
-  if (S.nonZeros() == 0) return {answer};
-  const Triangle triangle = compress(S);
-  if (triangle.rank == 0) return {{}, "the factorisation failed (memory)"};
-  answer.rank = triangle.rank;
-  answer.null_space = problem.rows() - triangle.rank;
-  const double squared = squared_condition(triangle.R);
-  answer.condition = problem.is_primal() ? squared : std::sqrt(squared);
+  if (S.nonZeros() == 0 || largest_column(S) == 0.0) return {answer};
+  const Square factor(compress(S).R);
+  if (factor.size() == 0) return {{}, "the factorisation failed (memory)"};
+  // W's eigenvalues are the squares of the singular values of S.
+  const double power = problem.is_primal() ? 2.0 : 1.0;
+  const double largest = factor.largest_singular_value();
+  const Eigen::MatrixXd null = factor.below(largest * std::pow(kNegligible, 1.0 / power));
+  answer.rank = factor.size() - static_cast<int>(null.cols());
+  answer.null_space = problem.rows() - answer.rank;
+  answer.condition = std::pow(largest / factor.smallest_singular_value(null), power);
   return {answer};
 }
 

@@ -24,16 +24,17 @@ struct SpectrumAnswer {
 /// problem.
 constexpr int kLargestSpectrumRows = 40'000;
 
-/// Rank by a sparse rank-revealing QR factorisation of S = H F, F F^T = M^-1, so that W = S S^T (of
-/// W itself in the reduced form): pivots below 1e-10 of the largest column count as 0. It is the
-/// numerical rank, and a heuristic one: column pivoting within a sparse ordering can miss a null
-/// space that no pivot shows, never the other way round.
-/// Condition, (s_max / s_min)^2 of S on its range (s_max / s_min of W), by power and inverse
-/// iterations with the triangular factor: what they miss makes it too small, by some percent.
-/// Where M couples more than Inertia::kLargestBlock dofs, diag(M) stands for it there: the rank is
-/// right, the condition is that of H diag(M)^-1 H^T.
-/// Cost    two sparse QR factorisations (SuiteSparseQR where SuiteSparse's GPL parts are built in,
-///         else Eigen's, far slower), only one where S or its transpose has full rank.
+/// Rank: how many eigenvalues of W (its singular values, in the reduced form) are above 1e-12 of
+/// the largest. By sparse QR factorisations of S = H F, F F^T = M^-1, so that W = S S^T (of W
+/// itself in the reduced form), until the triangular factor is square; inverse iterations then find
+/// the small singular values that its pivots do not show. Where the eigenvalues leave no gap at
+/// 1e-12 the rank is uncertain by those next to it. Condition: (s_max / s_min)^2 of S on its range
+/// (s_max / s_min of W), by Lanczos steps with the factor and its inverse: what they miss makes it
+/// too small, by a percent. Where M couples more than Inertia::kLargestBlock dofs, diag(M) stands
+/// for it there: the rank is right up to what is negligible, the condition is that of H diag(M)^-1
+/// H^T. Cost    two or more sparse QR factorisations (SuiteSparseQR where SuiteSparse's GPL parts
+/// are
+///         built in, else Eigen's, far slower), and solves with the factor.
 SpectrumAnswer spectrum(const Problem& problem);
 
 }  // namespace conebench::problems

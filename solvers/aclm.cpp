@@ -57,6 +57,7 @@ class Aclm final : public Iteration {
 
   const Eigen::VectorXd& r() const override { return best_; }
   double own_eta() const override { return best_eta_; }
+  double work_s() const override { return work_s_; }
   std::vector<std::string> notes() const override { return inner_->notes(); }
   Eigen::VectorXd certificate() const override { return certificate_; }
 
@@ -64,6 +65,7 @@ class Aclm final : public Iteration {
   State step() {
     const double tolerance = settings_.inner * std::min(eta_, last_);
     const State state = inner_->advance(tolerance);
+    work_s_ += inner_->step_work_s();
     ++inner_iterations_;
     measure();
     if (state != State::kRunning) {
@@ -135,6 +137,7 @@ class Aclm final : public Iteration {
   bool convex_;         // t is 0 for good
   double least_ = 0.0;  // least |mapped - shift| since Anderson restarted
   int inner_iterations_ = 0;
+  double work_s_ = 0.0;
   Clock::time_point began_;
   int patience_ = kPatience, idle_ = 0;  // iterations without progress: allowed, so far
   double eta_before_idling_ = 0.0;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -18,34 +17,29 @@ namespace conebench::solvers {
 namespace {
 
 using problems::Problem;
-using Clock = std::chrono::steady_clock;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the time that the lane has had
+constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the work that the lane has done
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
 constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
-constexpr double kNoPromise = 4.0;   // times the time had, where a turn brought nothing
+constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 
 // One method, its iterate and its record.
 struct Lane {
   std::string name;
   MakeIteration make;
-  double first_promise;      // time to finish before it has run, in sweeps of Gauss-Seidel
+  double first_promise;      // work to finish before it has run, in sweeps of Gauss-Seidel
   std::int64_t usual_steps;  // of a run that succeeds without trouble
   double handover;           // a start is taken from others when better than its own by this factor
 
   std::unique_ptr<Iteration> iteration{};
   double eta = kInfinity;  // at the end of its last turn
-  double spent_s = 0.0;
-  double promise_s = 0.0;
+  double done_s = 0.0;     // work in this run
+  double promise_s = 0.0;  // work that is left
   std::int64_t steps = 0;
   bool over = false;  // diverged or stalled at the iterate it would start from again
 };
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 class Automatic final : public Iteration {
  public:
@@ -66,7 +60,7 @@ class Automatic final : public Iteration {
     best_eta_ = problems::evaluate_eta(problem_, r);
     for (Lane& lane : lanes_) {
       lane.eta = kInfinity;
-      lane.spent_s = 0.0;
+      lane.done_s = 0.0;
       lane.steps = 0;
       lane.over = false;
     }
@@ -75,12 +69,12 @@ class Automatic final : public Iteration {
 
   State advance() override {
     Lane& lane = lanes_[current_];
-    const auto clock = Clock::now();
+    const double before = lane.iteration->work_s();
     const State state = lane.iteration->advance();
+    const double work = lane.iteration->work_s() - before;
     ++lane.steps;
-    const double spent = seconds_since(clock);
-    turn_s_ += spent;
-    lane.spent_s += spent;
+    turn_s_ += work;
+    lane.done_s += work;
     if (state == State::kInfeasible) return state;
     if (state == State::kRunning && !turn_is_over(lane)) return State::kRunning;
     return end_turn(lane, state);
@@ -94,7 +88,7 @@ class Automatic final : public Iteration {
     std::string text = "turns:";
     for (const Lane& lane : lanes_) {
       if (lane.steps == 0) continue;
-      text += fmt::format(" {} {} steps in {:.3g} s,", lane.name, lane.steps, lane.spent_s);
+      text += fmt::format(" {} {} steps,", lane.name, lane.steps);
     }
     text.back() = ';';
     return {text + " last " + lanes_[current_].name};
@@ -103,33 +97,28 @@ class Automatic final : public Iteration {
  private:
   bool turn_is_over(const Lane& lane) const {
     if (current_ == 0 && lane.steps < kFirstSweeps) return false;
-    return turn_s_ >= kTurnGrowth * (lane.spent_s - turn_s_);
+    return turn_s_ >= kTurnGrowth * (lane.done_s - turn_s_);
   }
 
   void begin_turn(std::size_t next) {
     current_ = next;
     Lane& lane = lanes_[next];
     turn_s_ = 0.0;
-    const auto clock = Clock::now();
     if (!lane.iteration) {
       lane.iteration = lane.make(problem_);
       lane.iteration->start(lane.handover > 0.0 ? best_ : guess_);
     } else if (best_eta_ < lane.handover * lane.eta) {
       lane.iteration->start(best_);
     }
-    turn_s_ = seconds_since(clock);
-    lane.spent_s += turn_s_;
     turn_from_ = std::min(lane.eta, best_eta_);
   }
 
   State end_turn(Lane& lane, State state) {
-    const auto clock = Clock::now();
     lane.eta = problems::evaluate_eta(problem_, lane.iteration->r());
     if (lane.eta < best_eta_) {
       best_eta_ = lane.eta;
       best_ = lane.iteration->r();
     }
-    lane.spent_s += seconds_since(clock);
     if (state != State::kRunning) {
       lane.over = true;
       lane.promise_s = kInfinity;
@@ -137,13 +126,13 @@ class Automatic final : public Iteration {
       const double fall = std::log(std::min(turn_from_, 1e3) / lane.eta);
       lane.promise_s = turn_s_ * std::max(std::log(lane.eta / tol_), 0.0) / std::max(fall, 1e-3);
     } else {
-      lane.promise_s = kNoPromise * lane.spent_s;
+      lane.promise_s = kNoPromise * lane.done_s;
     }
     if (state == State::kRunning && lane.steps < lane.usual_steps) {
       const double usual = static_cast<double>(lane.usual_steps) / static_cast<double>(lane.steps);
-      lane.promise_s = std::min(lane.promise_s, (usual - 1.0) * lane.spent_s);
+      lane.promise_s = std::min(lane.promise_s, (usual - 1.0) * lane.done_s);
     }
-    if (current_ == 0) sweep_s_ = lane.spent_s / static_cast<double>(lane.steps);
+    if (current_ == 0) sweep_s_ = lane.done_s / static_cast<double>(lane.steps);
     return choose();
   }
 
@@ -156,7 +145,7 @@ class Automatic final : public Iteration {
       const bool stuck = lane.over && !(best_eta_ < lane.handover * lane.eta);
       if (stuck) continue;
       const double promise = lane.steps == 0 ? lane.first_promise * sweep_s_
-                             : lane.over     ? kNoPromise * lane.spent_s
+                             : lane.over     ? kNoPromise * lane.done_s
                                              : lane.promise_s;
       if (promise < least) {
         least = promise;

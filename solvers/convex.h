@@ -25,6 +25,8 @@ class ConvexIteration {
   /// max_i lambda_i |r_i - P_K(r_i - (u_i + t_i e_n) / lambda_i)| / U at r(): eta of the posed
   /// problem.
   virtual double error() const = 0;
+  /// Iteration::work_s of one advance().
+  virtual double step_work_s() const { return 0.0; }
   virtual std::vector<std::string> notes() const { return {}; }
 };
 

@@ -12,6 +12,7 @@ using problems::Cone;
 using problems::Problem;
 using State = Iteration::State;
 
+constexpr double kSecondsPerRow = 1e-6;  // of an iteration without its linear system (work_s)
 constexpr double kFirstAlpha = 1e-3, kLeastAlpha = 1e-8, kLargestAlpha = 1e3;
 // A proximal step is solved when its residual is below this share of the way it went.
 constexpr double kInexactness = 1e-2;
@@ -88,6 +89,9 @@ class Ssnal final : public ConvexIteration {
   const Eigen::VectorXd& r() const override { return P_; }
   const Eigen::VectorXd& u() const override { return uP_; }
   double error() const override { return convex_error(problem_, shift_, P_, uP_); }
+  double step_work_s() const override {
+    return system_.work_s() + kSecondsPerRow * static_cast<double>(problem_.rows());
+  }
 
  private:
   const Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }

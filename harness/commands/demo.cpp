@@ -13,18 +13,22 @@
 #include "problems/error.h"
 #include "results/journal.h"
 #include "results/report.h"
+#include "solvers/registry.h"
 
 namespace conebench::harness {
 namespace {
 
 using Files = std::vector<std::filesystem::path>;
 
-// What the demo compares; one line a variant.
-const std::vector<std::string>& demo_variants() {
-  static const std::vector<std::string> variants = {
-      "gs",  "gs[local=projection]", "gs[omega=0.8]", "gs[omega=1.3]", "gs[form=delassus]",
-      "spg", "spg[step=long]",
-  };
+// What the demo compares: one of every kind of method, and Siconos where this build has it.
+std::vector<std::string> demo_variants() {
+  std::vector<std::string> variants = {
+      "auto", "gs", "gs[omega=1.3]", "gs[skip=10]", "newton-ac", "newton-fb", "aclm", "ipm", "spg"};
+  for (const solvers::Method& method : solvers::all_methods()) {
+    if (method.name == "siconos:nsgs" || method.name == "siconos:nsn-ac") {
+      variants.push_back(method.name);
+    }
+  }
   return variants;
 }
 
@@ -36,7 +40,7 @@ struct SceneExport {
 // The walls of both columns go at step 100: some steps of settling, most of collapse.
 constexpr std::array<SceneExport, 2> kScenes = {
     {{"column-dry", 300, 20, 20}, {"column-cohesive", 300, 20, 20}}};
-constexpr auto kSceneSolver = "gs";
+constexpr auto kSceneSolver = "auto";
 constexpr double kSceneBudget_s = 25.0, kSceneLimit_s = 60.0;  // of wall time
 
 constexpr double kTolerance = 1e-8, kTaskLimit_s = 0.5, kTaskHardLimit_s = 10.0;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <map>
@@ -11,12 +12,19 @@
 #include <set>
 
 #include "harness/commands/commands.h"
+#include "harness/interrupt.h"
+#include "harness/pool.h"
+#include "harness/units.h"
 #include "harness/where.h"
+#include "harness/worker.h"
 #include "problems/collection.h"
 #include "problems/error.h"
 #include "problems/fclib.h"
 #include "problems/load.h"
 #include "problems/residual.h"
+#include "problems/spectrum.h"
+#include "results/text.h"
+#include "solvers/certificate.h"
 
 namespace conebench::harness {
 namespace {
@@ -31,8 +39,8 @@ constexpr int kBadInput = 2;
 
 struct Options {
   std::vector<std::string> paths;
-  std::string where, output, format = "conebench";
-  bool json = false, standard = false;
+  std::string where, output, format = "conebench", time_limit = "10s";
+  bool json = false, standard = false, certificate = false;
 };
 
 // Text columns to the left, all others to the right, as wide as they need to be.
@@ -53,9 +61,11 @@ void print_table(const std::vector<std::vector<std::string>>& rows, std::size_t 
   }
 }
 
-void print_json(const Json& json) {
-  fmt::print("{}\n", json.dump(1, ' ', false, Json::error_handler_t::replace));
+std::string dumped(const Json& json, int indent) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
+
+void print_json(const Json& json) { fmt::print("{}\n", dumped(json, 1)); }
 
 std::string text_of(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
@@ -262,6 +272,96 @@ void index(const Options& options, int& exit_code) {
   }
 }
 
+Json find_existence(const std::string& file, double time_limit_s) {
+  const solvers::Certificate found =
+      solvers::certify(problems::load_problem(file).problem, time_limit_s);
+  return {{"existence", solvers::to_string(found.verdict)},
+          {"existence_margin", found.margin},
+          {"existence_text", found.text}};
+}
+
+Json find_rank(const std::string& file, double) {
+  const problems::SpectrumAnswer answer = problems::spectrum(problems::load_problem(file).problem);
+  if (!answer.spectrum) return {{"rank_missing", answer.reason}};
+  return {{"rank", answer.spectrum->rank},
+          {"null_space", answer.spectrum->null_space},
+          {"condition", answer.spectrum->condition}};
+}
+
+// What is found out of each problem beside its features, and by whom. Each in a process of its own:
+// memory and time are only known afterwards.
+struct Finding {
+  Json (*find)(const std::string& file, double time_limit_s);
+  const char* missing;  // key of the reason why there is nothing
+  const char* time;     // key of the time of the whole process
+};
+constexpr std::array kFindings{Finding{find_existence, "existence_text", "existence_s"},
+                               Finding{find_rank, "rank_missing", "rank_s"}};
+
+Json nothing_found(const Json& facts) {
+  return {{"path", facts.at("path")}, {"content_sha256", facts.at("content_sha256")},
+          {"existence", "unknown"},   {"existence_margin", nullptr},
+          {"existence_text", ""},     {"rank", nullptr},
+          {"null_space", nullptr},    {"condition", nullptr},
+          {"rank_missing", ""}};
+}
+
+void add_finding(const Finding& finding, const ChildOutcome& outcome, Json& proof) {
+  Json found = Json::parse(outcome.output, nullptr, false);
+  if (found.is_discarded()) {
+    found = {{finding.missing, "ended without an answer: " + describe_end(outcome)}};
+  }
+  proof.update(found);
+  proof[finding.time] = outcome.wall_s;
+}
+
+// One line of a table whose first column is as wide as `width`.
+void print_proof_row(std::size_t width, const std::array<std::string, 7>& cells) {
+  fmt::print("{:<{}}  {:<8}  {:>6}  {:>10}  {:>9}  {:>8}  {}\n", cells[0], width, cells[1],
+             cells[2], cells[3], cells[4], cells[5], cells[6]);
+  std::fflush(stdout);
+}
+
+void print_proof(std::size_t width, const Json& proof) {
+  const bool ranked = proof["rank"].is_number();
+  const double time_s = proof["existence_s"].get<double>() + proof["rank_s"].get<double>();
+  const std::string no_rank = text_of(proof["rank_missing"]);
+  print_proof_row(
+      width, {text_of(proof["path"]), text_of(proof["existence"]),
+              ranked ? text_of(proof["rank"]) : "-", ranked ? text_of(proof["null_space"]) : "-",
+              ranked ? fmt::format("{:.2e}", proof["condition"].get<double>()) : "-",
+              results::format_time(time_s),
+              text_of(proof["existence_text"]) + (ranked ? "" : "; no rank: " + no_rank)});
+}
+
+// Existence, rank and condition of each problem; a table of them, printed as they come, unless as
+// JSON.
+Json prove_all(const std::vector<Json>& entries, double time_limit_s, bool quiet, int& exit_code) {
+  std::size_t width = 0;
+  for (const Json& entry : entries) width = std::max(width, text_of(entry.at("path")).size());
+  if (!quiet) {
+    print_proof_row(width,
+                    {"problem", "solution", "rank", "null space", "condition", "time", "because"});
+  }
+  Json proofs = Json::array();
+  const auto make = [&](std::size_t i) -> Job {
+    const auto find = kFindings[i % kFindings.size()].find;
+    const std::string file = text_of(entries[i / kFindings.size()].at("path"));
+    return {.work = [=] { return dumped(find(file, time_limit_s), -1); },
+            .limits = {.wall_s = default_hard_limit_s(time_limit_s)}};
+  };
+  const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
+    const std::size_t which = i % kFindings.size();
+    if (which == 0) proofs.push_back(nothing_found(entries[i / kFindings.size()]));
+    add_finding(kFindings[which], outcome, proofs.back());
+    if (which + 1 == kFindings.size() && !quiet) print_proof(width, proofs.back());
+  };
+  if (!run_pool(kFindings.size() * entries.size(), 1, {.make = make, .done = done, .tick = {}})) {
+    exit_code = kInterruptedExit;
+  }
+  return proofs;
+}
+
 Json spread(const std::vector<Json>& entries, const std::string& key) {
   std::vector<double> values;
   for (const Json& entry : entries) values.push_back(entry.at(key).get<double>());
@@ -273,6 +373,7 @@ Json spread(const std::vector<Json>& entries, const std::string& key) {
 }
 
 void stats(const Options& options, int& exit_code) {
+  const double time_limit_s = parse_duration_s(options.time_limit, "--time-limit");
   const Facts facts = gather(options, exit_code);
   Json json{{"problems", facts.problems.size()}, {"duplicates", facts.duplicates}};
   json["of_engine"] = json["of_format"] = Json::object();
@@ -291,10 +392,16 @@ void stats(const Options& options, int& exit_code) {
     const Json s = json["features"][key] = spread(facts.problems, key);
     rows.push_back({key, text_of(s["min"]), text_of(s["median"]), text_of(s["max"])});
   }
-  if (options.json) return print_json(json);
-  fmt::print("{} problem(s), {} duplicate(s); engines {}; formats {}\n", facts.problems.size(),
-             facts.duplicates, json["of_engine"].dump(), json["of_format"].dump());
-  print_table(rows, 1);
+  if (!options.json) {
+    fmt::print("{} problem(s), {} duplicate(s); engines {}; formats {}\n", facts.problems.size(),
+               facts.duplicates, json["of_engine"].dump(), json["of_format"].dump());
+    print_table(rows, 1);
+  }
+  if (options.certificate) {
+    if (!options.json) fmt::print("\n");
+    json["certificates"] = prove_all(facts.problems, time_limit_s, options.json, exit_code);
+  }
+  if (options.json && exit_code != kInterruptedExit) print_json(json);
 }
 
 using Action = void (*)(const Options&, int&);
@@ -319,7 +426,16 @@ void add_problem(CLI::App& app, int& exit_code) {
   };
   reads(add_verb(*problem, "list", "one line for each problem", o, exit_code, list), true);
   reads(add_verb(*problem, "show", "all that is known of each problem", o, exit_code, show), true);
-  reads(add_verb(*problem, "stats", "summary of a collection", o, exit_code, stats), true);
+  CLI::App* stats_verb =
+      add_verb(*problem, "stats", "summary of a collection", o, exit_code, stats);
+  reads(stats_verb, true);
+  CLI::Option* certificate = stats_verb->add_flag(
+      "--certificate", o->certificate,
+      "and of each problem: is there a solution (proved), rank and condition of W");
+  stats_verb
+      ->add_option("--time-limit", o->time_limit, "for the proof of each, e.g. 500ms, 60s, 2min")
+      ->needs(certificate)
+      ->capture_default_str();
   reads(add_verb(*problem, "verify", "read, check and judge the stored solution (2 if bad)", o,
                  exit_code, verify),
         false);

@@ -16,7 +16,7 @@ namespace conebench::harness {
 namespace {
 
 struct SolveOptions {
-  std::string file, solver = "gs", solution_file;
+  std::string file, solver = "auto", solution_file;
   SolveSettings settings;
   bool json = false, curve = false, strict = false;
 };

@@ -65,8 +65,10 @@ void list(bool as_json) {
     return;
   }
   for (const auto& method : solvers::all_methods()) {
-    fmt::print("{:<12} {:<7} {}\n", method.name, solvers::to_string(method.kind), method.summary);
+    fmt::print("{:<16} {:<7} {}\n", method.name, solvers::to_string(method.kind), method.summary);
   }
+  fmt::print("{:<16} {:<7} {}\n", "exec:PROGRAM", "peer",
+             "a program of yours: reads a problem file, writes r (examples/README.md)");
 }
 
 void show(const std::string& name, bool as_json) {

@@ -5,10 +5,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
-#include <limits>
 
 #include "problems/error.h"
 #include "problems/residual.h"
+#include "solvers/certificate.h"
 #include "solvers/forked.h"
 
 namespace conebench::harness {
@@ -22,13 +22,14 @@ struct Trace {
   Attempt::End end;  // kDied until it says otherwise
   Status status;
   std::int64_t iterations;
-  Eigen::Index r_size;
+  Eigen::Index r_size, certificate_size;
   double wall_s;
   char text[160];
 };
 
 void solve_in_child(const solvers::Solver& solver, const Problem& standard,
-                    const solvers::Request& request, Trace& trace, std::span<double> r) {
+                    const solvers::Request& request, Trace& trace, std::span<double> r,
+                    std::span<double> certificate) {
   const auto start = std::chrono::steady_clock::now();
   auto threw = [&](Attempt::End end, const char* text) {
     std::strncpy(trace.text, text, sizeof trace.text - 1);
@@ -38,8 +39,12 @@ void solve_in_child(const solvers::Solver& solver, const Problem& standard,
     const solvers::Result result = solver.solve(standard, request);
     trace.status = result.status;
     trace.iterations = result.iterations;
-    trace.r_size = result.r.size();
-    if (result.r.size() == standard.rows()) std::copy(result.r.begin(), result.r.end(), r.begin());
+    auto keep = [&](const Eigen::VectorXd& x, std::span<double> kept) {
+      if (x.size() == standard.rows()) std::copy(x.begin(), x.end(), kept.begin());
+      return x.size();
+    };
+    trace.r_size = keep(result.r, r);
+    trace.certificate_size = keep(result.certificate, certificate);
     trace.end = Attempt::End::kReturned;
   } catch (const problems::InputError& error) {
     threw(Attempt::End::kInputError, error.what());
@@ -62,28 +67,47 @@ Attempt attempt(const solvers::Solver& solver, const Problem& problem, const sol
     return result;
   }
   const solvers::SharedArray<Trace> shared(1);
-  const solvers::SharedArray<double> r(static_cast<std::size_t>(standard.rows()) + 1);
+  const auto rows = static_cast<std::size_t>(standard.rows());
+  const solvers::SharedArray<double> r(rows + 1), certificate(rows + 1);  // never empty
   Trace& trace = shared[0];
   trace.end = Attempt::End::kDied;
   const solvers::ProcessEnd end = solvers::run_forked(
       [&] {
-        solve_in_child(solver, standard, {stop, guess, nullptr}, trace, r.all());
+        solve_in_child(solver, standard, {stop, guess, nullptr}, trace, r.all(), certificate.all());
         return 0;
       },
       stop.time_limit_s + Attempt::kPatience_s);
   result.end = trace.end;
-  result.status = trace.status;
-  result.iterations = trace.iterations;
   result.wall_s = trace.wall_s;
   result.text = trace.end == Attempt::End::kDied ? describe(end) : trace.text;
   if (trace.end != Attempt::End::kReturned) return result;
-  if (trace.r_size != standard.rows()) {
-    result.eta = std::numeric_limits<double>::infinity();
-    return result;
-  }
-  result.r = Eigen::Map<const Eigen::VectorXd>(r.all().data(), standard.rows());
-  result.eta = problems::evaluate_eta(standard, result.r);
+  result.status = trace.status;
+  result.iterations = trace.iterations;
+  auto kept = [&](const solvers::SharedArray<double>& array, Eigen::Index size) {
+    return size == standard.rows() ? Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(
+                                         array.all().data(), standard.rows()))
+                                   : Eigen::VectorXd();
+  };
+  result.r = kept(r, trace.r_size);
+  result.certificate = kept(certificate, trace.certificate_size);
+  if (trace.r_size == standard.rows()) result.eta = problems::evaluate_eta(standard, result.r);
   return result;
+}
+
+std::string ending(const Attempt& attempt) {
+  switch (attempt.end) {
+    case Attempt::End::kReturned:
+      return std::string(to_string(attempt.status));
+    case Attempt::End::kInputError:
+      return "InputError";
+    case Attempt::End::kThrew:
+      return "threw";
+    case Attempt::End::kDied:
+      return "died";
+    case Attempt::End::kRefused:
+      return "refused";
+  }
+  return "unknown";
 }
 
 std::string fault(const Attempt& attempt, const Problem& problem, const solvers::Stop& stop) {
@@ -106,6 +130,10 @@ std::string fault(const Attempt& attempt, const Problem& problem, const solvers:
   const bool claims = attempt.status == Status::kConverged;
   if (stop.test == solvers::StopTest::kCommon && claims != (attempt.eta <= stop.tol)) {
     return fmt::format("says {} at eta = {:.3g}", to_string(attempt.status), attempt.eta);
+  }
+  if (attempt.status == Status::kInfeasible &&
+      !solvers::proves_infeasible(problem.shifted(), attempt.certificate)) {
+    return "says infeasible without a proof";
   }
   return "";
 }

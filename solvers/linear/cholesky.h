@@ -21,6 +21,9 @@ class Cholesky {
   bool factorize(const Matrix& matrix);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
+  /// Of factorize() and a few solve(), from the analysis (Iteration::work_s).
+  double work_s() const;
+
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;

@@ -171,4 +171,6 @@ Eigen::VectorXd GeneralSystem::solve(const Eigen::VectorXd& b) const {
   return full_ ? full_->solve(b) : reduced_->solve(b);
 }
 
+double GeneralSystem::work_s() const { return full_ ? full_->lu.work_s() : reduced_->lu.work_s(); }
+
 }  // namespace conebench::solvers

@@ -24,6 +24,9 @@ class GeneralSystem {
   bool factorize(const BlockDiagonal& A, const BlockDiagonal& B, const BlockDiagonal* R = nullptr);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
+  /// Of the last factorize() and a few solve() (Iteration::work_s); 0 before it.
+  double work_s() const;
+
  private:
   struct Reduced;
   struct Full;

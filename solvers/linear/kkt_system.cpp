@@ -11,6 +11,8 @@ using problems::Problem;
 using problems::SparseMatrix;
 using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
+constexpr double kSecondsPerFlop = 1e-9, kSecondsPerNonzero = 25e-9;
+
 }  // namespace
 
 struct KktSystem::Parts {
@@ -70,6 +72,13 @@ Eigen::VectorXd KktSystem::solve(const Eigen::VectorXd& z) const {
   Eigen::VectorXd whole = Eigen::VectorXd::Zero(parts_->matrix.rows());
   whole.tail(z.size()) = z;
   return -parts_->factor.solve(whole).tail(z.size());
+}
+
+double KktSystem::work_s() const {
+  const double nonzeros =
+      static_cast<double>(parts_->factor.matrixL().nestedExpression().nonZeros());
+  const double flops = nonzeros * nonzeros / static_cast<double>(parts_->matrix.rows());
+  return kSecondsPerFlop * flops + kSecondsPerNonzero * nonzeros;
 }
 
 std::int64_t KktSystem::nonzeros(const Problem& problem) {

@@ -17,6 +17,9 @@ class KktSystem {
   bool factorize(const BlockDiagonal& R);
   Eigen::VectorXd solve(const Eigen::VectorXd& z) const;
 
+  /// Of factorize() and a few solve() (Iteration::work_s); 0 before the first.
+  double work_s() const;
+
   /// Nonzeros of the lower triangle, to compare with another form's.
   static std::int64_t nonzeros(const problems::Problem& problem);
 

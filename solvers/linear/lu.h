@@ -23,9 +23,13 @@ class Lu {
   bool factorize(const Matrix& matrix);
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
+  /// Of the last factorize() and a few solve() (Iteration::work_s); 0 before it.
+  double work_s() const { return work_s_; }
+
  private:
   struct Factor;
   std::unique_ptr<Factor> factor_;
+  double work_s_ = 0.0;
 };
 
 }  // namespace conebench::solvers

@@ -267,6 +267,10 @@ Eigen::VectorXd NormalSystem::solve(const Eigen::VectorXd& b) const {
   return primal_ ? primal_->solve(b) : reduced_->solve(b);
 }
 
+double NormalSystem::work_s() const {
+  return primal_ ? primal_->cholesky.work_s() : reduced_->cholesky.work_s();
+}
+
 std::int64_t NormalSystem::nonzeros(const Problem& problem) {
   return pattern(problem, ConeRows(problem)).nonZeros();
 }

@@ -27,6 +27,9 @@ class NormalSystem {
   bool factorize_root(const BlockDiagonal& R);
   Eigen::VectorXd solve_root(const Eigen::VectorXd& z) const;
 
+  /// Of factorize() and a few solve() (Iteration::work_s).
+  double work_s() const;
+
   /// Nonzeros of the lower triangle of M + H^T E H, to compare with another form's. Primal only.
   static std::int64_t nonzeros(const problems::Problem& problem);
 

@@ -55,18 +55,22 @@ void NewtonFbLocal<D>::evaluate(const Vector& q, const Vector& r, Point& point) 
   using Tangent = Eigen::Matrix<double, T, 1>;
   const Eigen::Index tangents = q.size() - 1;
   const double root = std::sqrt(lambda_);
+  const double normal = std::max(mu_, 1.0), tangent = std::max(1.0 / mu_, 1.0);
   const Vector u = W_ * r + q;
   const double speed = u.template segment<T>(1, tangents).norm();
 
   Vector x = root * r, y = u / root;
-  x(0) *= mu_;
-  y(0) = (u(0) + theta_ * speed) / (mu_ * root);
+  x(0) *= normal;
+  x.template segment<T>(1, tangents) *= tangent;
+  y(0) = (u(0) + theta_ * speed) / (normal * root);
+  y.template segment<T>(1, tangents) /= tangent;
   Matrix dy = W_ / root;
   if (speed > 0.0) {
     dy.row(0) += (theta_ / (speed * root)) * (u.template segment<T>(1, tangents).transpose() *
                                               W_.template bottomRows<T>(tangents));
   }
-  dy.row(0) /= mu_;
+  dy.row(0) /= normal;
+  dy.template bottomRows<T>(tangents) /= tangent;
 
   double low = 0.0, high = 0.0;
   Tangent e(tangents);
@@ -77,8 +81,8 @@ void NewtonFbLocal<D>::evaluate(const Vector& q, const Vector& r, Point& point) 
   point.F.template segment<T>(1, tangents) -= 0.5 * (high - low) * e;
 
   // dx = root diag(mu, 1, ..): columns.
-  Vector dx = Vector::Constant(q.size(), root);
-  dx(0) *= mu_;
+  Vector dx = Vector::Constant(q.size(), root * tangent);
+  dx(0) = root * normal;
   point.jacobian = dy;
   point.jacobian.diagonal() += dx;
   if (!(high > 0.0)) return;

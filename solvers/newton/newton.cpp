@@ -13,6 +13,7 @@ namespace {
 using problems::Cone;
 using problems::Problem;
 
+constexpr double kSecondsPerRow = 1e-6;  // of an iteration without its linear system (work_s)
 constexpr double kLeastAlpha = 1e-10, kLargestAlpha = 100.0;
 constexpr double kGrowth = 10.0;
 // Below kShort the model failed; from kWhole on it held.
@@ -85,6 +86,8 @@ class Newton final : public Iteration {
 
   const Eigen::VectorXd& r() const override { return r_; }
 
+  double work_s() const override { return work_s_; }
+
   double own_eta() const override {
     return convex_error(problem_, de_saxce_shift(problem_, u_), r_, u_);
   }
@@ -121,7 +124,9 @@ class Newton final : public Iteration {
   // False when the matrix is singular or the direction is not one of descent.
   bool find_direction() {
     linearise();
-    if (!system_.factorize(regularised_, B_)) return false;
+    const bool factorised = system_.factorize(regularised_, B_);
+    work_s_ += system_.work_s() + kSecondsPerRow * static_cast<double>(problem_.rows());
+    if (!factorised) return false;
     dr_ = system_.solve(-phi_);
     dp_ = lambda_.cwiseProduct(dr_);
     du_ = problem_.apply_delassus(dr_) + alpha_ * dp_;
@@ -152,7 +157,7 @@ class Newton final : public Iteration {
   StepLength step_length_;
   std::int64_t warmup_;
   std::unique_ptr<Iteration> sweeps_;  // null without warm-up
-  double alpha_ = 0.0;
+  double alpha_ = 0.0, work_s_ = 0.0;
   Eigen::VectorXd r_, p_, u_, phi_;  // at the iterate; p = lambda r
   Eigen::VectorXd dr_, dp_, du_;     // along the step; du of the proximal problem
   double slope_ = 0.0;

@@ -67,7 +67,7 @@ TEST(Scene, ReadsWhatIsWrittenAndFillsInDefaults) {
   EXPECT_EQ(scene.name, "two");
   EXPECT_EQ(scene.step_count(), 300);
   EXPECT_EQ(scene.gravity_m_s2, Eigen::Vector3d(0.0, 0.0, -9.81));
-  EXPECT_EQ(scene.solver.name, "gs[local=exact]");
+  EXPECT_EQ(scene.solver.name, "auto");
   EXPECT_EQ(scene.bodies.size(), 2u);
   EXPECT_EQ(dem::law_between(scene, "glass", "glass")->friction, 0.5);
 }

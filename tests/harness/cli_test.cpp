@@ -142,10 +142,51 @@ TEST_F(CommandLineTest, SolversAreListedShownAndChecked) {
   EXPECT_THAT(conebench("solver list").out, HasSubstr("spg"));
   EXPECT_TRUE(nlohmann::json::parse(conebench("solver list --json").out).is_array());
   EXPECT_THAT(conebench("solver show gs").out, HasSubstr("omega"));
-  expect_usage_error("solver show gx", "did you mean gs");
+  expect_usage_error("solver show gx", "known: auto, ");
   const Ran check = conebench("solver check gs problems");
   EXPECT_EQ(check.code, 0) << check.out;
   EXPECT_THAT(check.out, HasSubstr("pass  made-3d"));
+}
+
+TEST_F(CommandLineTest, StatisticsProveWhetherThereIsASolution) {
+  const problems::Problem infeasible =
+      problems::make_backwards({.family = problems::Family::kInfeasible, .cones = 6, .seed = 3})
+          .problem;
+  problems::write_problem_file(problems() / "walls.h5", {infeasible, {}, {}, {}});
+  const Ran ran = conebench("problem stats problems --certificate --json --time-limit 5s");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const auto certificates = nlohmann::json::parse(ran.out)["certificates"];
+  ASSERT_EQ(certificates.size(), 3u);
+  for (const auto& found : certificates) {
+    const bool walls = found["path"] == "problems/walls.h5";
+    EXPECT_EQ(found["existence"], walls ? "none" : "exists") << found;
+    EXPECT_THAT(found["existence_text"].get<std::string>(),
+                HasSubstr(walls ? "there is none" : "a solution exists"));
+    EXPECT_EQ(found["rank"], walls ? 15 : 120) << found;
+    EXPECT_EQ(found["null_space"], walls ? 3 : 0) << found;
+    EXPECT_GT(found["condition"], 1.0) << found;
+  }
+  const std::string table = conebench("problem stats problems --certificate").out;
+  for (const char* text : {"null space", "there is none", "a solution exists", "rate_scale"}) {
+    EXPECT_THAT(table, HasSubstr(text));
+  }
+}
+
+TEST_F(CommandLineTest, StatisticsProveNothingUnasked) {
+  EXPECT_FALSE(nlohmann::json::parse(conebench("problem stats problems --json").out)
+                   .contains("certificates"));
+  expect_usage_error("problem stats problems --certificate --time-limit 3parsecs", "known units");
+  expect_usage_error("problem stats problems --time-limit 1s", "--certificate");
+}
+
+TEST_F(CommandLineTest, AProvenClaimOfNoSolutionIsAcceptedAndNotSolved) {
+  const problems::Problem infeasible =
+      problems::make_backwards({.family = problems::Family::kInfeasible, .cones = 6, .seed = 3})
+          .problem;
+  problems::write_problem_file(folder_ / "walls.h5", {infeasible, {}, {}, {}});
+  const Ran ran = conebench("solve walls.h5 -s aclm --time-limit 5s --json --strict");
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_EQ(nlohmann::json::parse(ran.out)["status"], "infeasible") << ran.out;
 }
 
 TEST_F(CommandLineTest, TheDoctorSpeaksJson) {

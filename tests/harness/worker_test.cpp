@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -135,6 +136,64 @@ TEST(Worker, AHangIsKilledWithEverythingThatItStarted) {
   stat >> pid >> name >> state;
   EXPECT_TRUE(state == "gone" || state == "Z") << state;
   std::remove(pid_file.c_str());
+}
+
+// A unit mass between two walls that close in: H = (1; -1), w = (-1; -1).
+problems::Problem closing_walls() {
+  problems::SparseMatrix M(1, 1), H(2, 1);
+  M.insert(0, 0) = 1.0;
+  H.insert(0, 0) = 1.0;
+  H.insert(1, 0) = -1.0;
+  return {problems::PrimalData{M, H, Eigen::VectorXd::Zero(1), Eigen::VectorXd::Constant(2, -1.0)},
+          {problems::Cone::coulomb(1, 0.0), problems::Cone::coulomb(1, 0.0)},
+          {}};
+}
+
+// What becomes of a solver that offers y as the proof that there is no solution.
+Record claim_infeasible(const Eigen::VectorXd& y, solvers::Kind kind = solvers::Kind::kMethod,
+                        const std::function<problems::Problem()>& load = closing_walls) {
+  solvers::Solver solver = honest_solver();
+  solver.kind = kind;
+  solver.solve = [y](const problems::Problem&, const solvers::Request&) {
+    solvers::Result result;
+    result.status = solvers::Status::kInfeasible;
+    result.certificate = y;
+    return result;
+  };
+  const auto record =
+      run_task({.problem = {}, .load = load, .solver = solver, .stop = {.time_limit_s = 1.0}});
+  EXPECT_TRUE(record.has_value());
+  EXPECT_EQ(record->claimed, "infeasible");
+  EXPECT_FALSE(record->solved());
+  return *record;
+}
+
+TEST(Worker, AProofThatThereIsNoSolutionIsAccepted) {
+  const Record record = claim_infeasible(Eigen::Vector2d(1.0, 1.0));
+  EXPECT_EQ(record.status, Status::kInfeasible);
+  EXPECT_EQ(record.error, "");
+}
+
+TEST(Worker, AFalseProofThatThereIsNoSolutionIsRefuted) {
+  for (const Eigen::Vector2d& y : {Eigen::Vector2d(1.0, 0.0), Eigen::Vector2d(-1.0, -1.0),
+                                   Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1.0, NAN)}) {
+    const Record record = claim_infeasible(y);
+    EXPECT_EQ(record.status, Status::kRefuted);
+    EXPECT_THAT(record.error, HasSubstr("does not prove"));
+  }
+  const Record other = claim_infeasible(Eigen::Vector3d(1.0, 0.0, 0.0), solvers::Kind::kMethod,
+                                        [] { return one_contact(); });
+  EXPECT_EQ(other.status, Status::kRefuted) << "one contact has a solution";
+}
+
+TEST(Worker, AClaimThatThereIsNoSolutionWithoutAProofIsRefuted) {
+  const Record record = claim_infeasible({});
+  EXPECT_EQ(record.status, Status::kRefuted);
+  EXPECT_THAT(record.error, HasSubstr("without a certificate"));
+}
+
+TEST(Worker, AModelMayHaveNoSolutionOfItsOwn) {
+  EXPECT_EQ(claim_infeasible({}, solvers::Kind::kModel).status, Status::kInfeasible);
 }
 
 // Takes memory without end and uses it, so that the system cannot lend it for nothing.

@@ -1,0 +1,240 @@
+#include "solvers/interior_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace conebench::solvers {
+namespace {
+
+using problems::Cone;
+using problems::Problem;
+using State = Iteration::State;
+
+constexpr double kSecondsPerRow = 8e-6;  // of an iteration without its linear system (work_s)
+constexpr double kToBoundary = 0.995;    // share of the way to the cone's boundary
+constexpr double kLeastPush = 1e-12, kLargestPush = 1.0;  // into the interior, as shares of U
+// Cones of less mobility than this share of the largest start from no larger a reaction.
+constexpr double kLeastMobility = 1e-4;
+constexpr double kInside = 4e-16;  // least relative distance from the boundary
+constexpr int kRefinements = 3;
+constexpr double kFine = 1e-10;      // a larger one asks for the finer form
+constexpr double kRefined = 1e-13;   // relative residual that needs no refinement
+constexpr double kRounding = 2e-15;  // of a sum, as a share of the sum of its terms' sizes
+constexpr int kShortenings = 8;
+constexpr double kShortestStep = 1e-8;
+
+}  // namespace
+
+InteriorPoint::InteriorPoint(const Problem& problem, ScaledSystem::Form form, bool coulomb)
+    : problem_(problem),
+      coulomb_(coulomb),
+      system_(problem, form, !coulomb),
+      R_(problem),
+      C_(problem),
+      scalings_(static_cast<std::size_t>(problem.cone_count())) {}
+
+void InteriorPoint::pose(const Eigen::VectorXd& shift, const Eigen::VectorXd& r) {
+  posed_ = shift;
+  const Eigen::VectorXd u = problem_.rate(r);
+  const Eigen::VectorXd t = coulomb_ ? de_saxce_shift(problem_, u) : posed_;
+  const double violation = convex_error(problem_, t, r, u);
+  const double push = std::clamp(10.0 * violation, kLeastPush, kLargestPush) * scale();
+  r_ = x_ = Eigen::VectorXd::Zero(problem_.rows());
+  for (int i = 0; i < problem_.cone_count(); ++i) {
+    const int at = problem_.start(i), dim = cone(i).dim;
+    const double lambda = problem_.mobility()(i), mu = cone(i).mu;
+    Eigen::VectorXd z = r.segment(at, dim) - u.segment(at, dim) / lambda;
+    z(0) -= t(i) / lambda;
+    Eigen::VectorXd projected = z;
+    problems::project(mu, projected);
+    r_.segment(at, dim) = projected;
+    x_.segment(at, dim) = lambda * (projected - z);
+    // As far from the boundary in either cone, whatever mu.
+    const double size = std::max(lambda, kLeastMobility * problem_.mobility().maxCoeff());
+    r_(at) += push / size * std::max(1.0, 1.0 / std::max(mu, 0.1));
+    x_(at) += push * std::max(1.0, mu);
+  }
+  u_ = problem_.rate(r_);
+  update();
+}
+
+State InteriorPoint::advance(double) {
+  if (problem_.cone_count() == 0) return State::kStalled;
+  for (int i = 0; i < problem_.cone_count(); ++i) {
+    const int at = problem_.start(i), dim = cone(i).dim;
+    NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
+    scaling.set(cone(i).mu, r_.segment(at, dim), x_.segment(at, dim));
+    scaling.write_R(R_[i]);
+  }
+  const Eigen::VectorXd residual = residual_above_rounding();
+  if (!residual.allFinite()) return State::kStalled;
+  if (!affine_direction(residual)) return State::kStalled;
+  const double affine = step_length(1.0);
+  const double sigma = std::pow(1.0 - affine, 3);
+  direction((1.0 - sigma) * residual, sigma * nu_, affine * affine);
+  double step = kToBoundary * step_length(1.0 / kToBoundary);
+  if (!dr_.allFinite() || !dx_.allFinite()) return State::kStalled;
+  step = coulomb_ ? shorten(step, 1.0 - sigma, residual.norm()) : std::min(step, 1.0);
+  if (step < kShortestStep) return State::kStalled;
+  r_ += step * dr_;
+  x_ += step * dx_;
+  keep_inside();
+  u_ = problem_.rate(r_);
+  update();
+  return State::kRunning;
+}
+
+double InteriorPoint::step_work_s() const {
+  return system_.work_s() + kSecondsPerRow * static_cast<double>(problem_.rows());
+}
+
+double InteriorPoint::eta() const {
+  return convex_error(problem_, de_saxce_shift(problem_, u_), r_, u_);
+}
+
+double InteriorPoint::smoothing_of(int i) const {
+  const double root = std::sqrt(std::max(nu_, 0.0) * problem_.mobility()(i));
+  return root * std::min(1.0, root / scale());
+}
+
+// Gap, shift and its derivative at the current iterate.
+void InteriorPoint::update() {
+  nu_ = r_.dot(x_) / std::max(problem_.cone_count(), 1);
+  smoothing_ = 0.0;
+  if (coulomb_) posed_.resize(problem_.cone_count());
+  for (int i = 0; i < problem_.cone_count(); ++i) {
+    C_[i].setIdentity();
+    if (!coulomb_) continue;
+    const int at = problem_.start(i), tangents = cone(i).dim - 1;
+    const double eps = smoothing_of(i);
+    smoothing_ = std::max(smoothing_, eps);
+    const auto ut = u_.segment(at + 1, tangents);
+    const double length = std::hypot(ut.norm(), eps);
+    posed_(i) = cone(i).theta * length;
+    if (length > 0.0) {
+      C_[i].row(0).tail(tangents) = (cone(i).theta / length * ut).transpose();
+    }
+  }
+  error_ = convex_error(problem_, posed_, r_, u_);
+}
+
+// e, its entries of the size of the rounding in u taken as zero: where x is smaller than that
+// they would swamp the direction.
+Eigen::VectorXd InteriorPoint::residual_above_rounding() const {
+  const Eigen::VectorXd terms =
+      problem_.is_primal()
+          ? Eigen::VectorXd(problem_.H().cwiseAbs() * problem_.velocity(r_).cwiseAbs() +
+                            problem_.w().cwiseAbs())
+          : Eigen::VectorXd(problem_.W().cwiseAbs() * r_.cwiseAbs() + problem_.q().cwiseAbs());
+  Eigen::VectorXd e = u_ + shift_normals() - x_;
+  for (Eigen::Index row = 0; row < e.size(); ++row) {
+    if (std::abs(e(row)) <= kRounding * terms(row)) e(row) = 0.0;
+  }
+  return e;
+}
+
+Eigen::VectorXd InteriorPoint::shift_normals() const {
+  Eigen::VectorXd t = Eigen::VectorXd::Zero(problem_.rows());
+  for (int i = 0; i < problem_.cone_count(); ++i) t(problem_.start(i)) = posed_(i);
+  return t;
+}
+
+// False where the system has no factor in doubles.
+bool InteriorPoint::affine_direction(const Eigen::VectorXd& residual) {
+  const bool factorised = system_.factorize(R_, C_);
+  if (factorised && direction(residual, 0.0, 0.0) <= kFine) return true;
+  if (!system_.can_be_finer()) return factorised;
+  system_.be_finer();
+  if (!system_.factorize(R_, C_)) return false;
+  direction(residual, 0.0, 0.0);
+  return true;
+}
+
+// dr~ + dx~ = lambda \ (target - lambda o lambda - correction * last dx~ o last dr~) with
+// dx = C W dr + e gives (I + R C W R^T) dr~ = that - R e, refined against W itself.
+// Returns the relative residual that is left.
+double InteriorPoint::direction(const Eigen::VectorXd& residual, double target, double correction) {
+  Eigen::VectorXd z = Eigen::VectorXd::Zero(problem_.rows());
+  for (int i = 0; i < problem_.cone_count(); ++i) {
+    const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
+    const Eigen::Index at = problem_.start(i), size = scaling.size();
+    Eigen::VectorXd c = -jordan_product(scaling.lambda(), scaling.lambda());
+    c(0) += target;
+    if (correction > 0.0) {
+      c -= correction * jordan_product(scaled_dx_.segment(at, size), scaled_dr_.segment(at, size));
+    }
+    z.segment(at, size) = jordan_divide(scaling.lambda(), c);
+  }
+  const Eigen::VectorXd rhs = z - R_ * residual;
+  auto move = [&](const Eigen::VectorXd& scaled) {
+    scaled_dr_ = scaled;
+    dr_ = R_.transpose_times(scaled);
+    du_ = problem_.apply_delassus(dr_);
+    dx_ = C_ * du_;
+    return Eigen::VectorXd(rhs - scaled - R_ * dx_);
+  };
+  Eigen::VectorXd left = move(system_.solve(rhs));
+  for (int k = 0; k < kRefinements && left.norm() > kRefined * rhs.norm(); ++k) {
+    const Eigen::VectorXd before = scaled_dr_;
+    const Eigen::VectorXd left_then = move(before + system_.solve(left));
+    if (!(left_then.norm() < left.norm())) {
+      move(before);
+      break;
+    }
+    left = left_then;
+  }
+  dx_ += residual;
+  scaled_dx_ = z - scaled_dr_;
+  return left.norm() / std::max(rhs.norm(), std::numeric_limits<double>::min());
+}
+
+// The longest step that keeps r and x in their cones.
+double InteriorPoint::step_length(double longest) const {
+  double step = longest;
+  for (int i = 0; i < problem_.cone_count(); ++i) {
+    const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
+    const Eigen::Index at = problem_.start(i), size = scaling.size();
+    step = longest_step(scaling.lambda(), scaled_dr_.segment(at, size), step);
+    step = longest_step(scaling.lambda(), scaled_dx_.segment(at, size), step);
+  }
+  return step;
+}
+
+// Rounding may put an iterate on the boundary of its cone, where the scaling does not exist.
+void InteriorPoint::keep_inside() {
+  for (int i = 0; i < problem_.cone_count(); ++i) {
+    const double mu = cone(i).mu;
+    auto r = r_.segment(problem_.start(i), cone(i).dim);
+    auto x = x_.segment(problem_.start(i), cone(i).dim);
+    if (mu == 0.0) {
+      r.tail(cone(i).dim - 1).setZero();
+      continue;
+    }
+    r(0) = std::max(r(0), problems::tangential_norm(r) / mu * (1.0 + kInside));
+    x(0) = std::max(x(0), mu * problems::tangential_norm(x) * (1.0 + kInside));
+  }
+}
+
+// The residual of the nonlinear x = u + theta |u_t|_eps e_n must fall, or stay below the gap.
+double InteriorPoint::shorten(double step, double share, double before) const {
+  step = std::min(step, 1.0);
+  const double rounding = 1e-15 * std::max(u_.norm(), scale());
+  const double gap = std::sqrt(std::max(nu_, 0.0) * problem_.mobility().maxCoeff());  // as a rate
+  for (int trial = 0; trial < kShortenings; ++trial) {
+    double square = 0.0;
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      const int at = problem_.start(i), dim = cone(i).dim;
+      const Eigen::VectorXd u = u_.segment(at, dim) + step * du_.segment(at, dim);
+      Eigen::VectorXd e = u - x_.segment(at, dim) - step * dx_.segment(at, dim);
+      e(0) += cone(i).theta * std::hypot(u.tail(dim - 1).norm(), smoothing_of(i));
+      square += e.squaredNorm();
+    }
+    const double allowed = (1.0 - 0.1 * share * step) * before + rounding;
+    if (std::sqrt(square) <= std::max(allowed, 0.1 * gap)) return step;
+    step *= 0.5;
+  }
+  return step;
+}
+
+}  // namespace conebench::solvers
