@@ -1,7 +1,6 @@
 #include "solvers/aclm.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "solvers/anderson.h"
@@ -12,18 +11,17 @@ namespace conebench::solvers {
 namespace {
 
 using problems::Problem;
-using Clock = std::chrono::steady_clock;
 
 // An outer step that leaves this multiple of the least residual so far restarts Anderson.
 constexpr double kGrowth = 2.0;
 // Inner iterations on one t before the next t is tried all the same.
 constexpr int kInnerIterations = 60;
 // Iterations without a fall of eta to kProgress of what it was, before a proof that there is no
-// solution is tried; twice as many before each further try.
+// solution is looked for beside them, one step of the search an iteration.
 constexpr int kPatience = 100;
 constexpr double kProgress = 0.5;
-// Time for such a try, as a share of the time so far.
-constexpr double kProofShare = 0.25;
+// Steps of that search.
+constexpr int kSearch = 200;
 
 class Aclm final : public Iteration {
  public:
@@ -39,27 +37,32 @@ class Aclm final : public Iteration {
     best_ = r;
     pose_best();
     measure();
-    began_ = Clock::now();
-    patience_ = kPatience;
-    idle_ = 0;
+    end_ = State::kRunning;
+    search_.reset();
+    searched_ = idle_ = 0;
     eta_before_idling_ = best_eta_;
   }
 
   State advance() override {
-    const State state = step();
-    if (state == State::kRunning && !out_of_patience()) return state;
-    const std::chrono::duration<double> spent = Clock::now() - began_;
-    const auto proof = prove_infeasible(problem_, kProofShare * spent.count());
-    if (!proof) return state;
-    certificate_ = *proof;
-    return State::kInfeasible;
+    if (end_ == State::kRunning) end_ = step();
+    if (end_ == State::kRunning && !out_of_patience()) return end_;
+    if (searched_ == kSearch) return end_;
+    if (!search_) search_ = std::make_unique<InfeasibilitySearch>(problem_);
+    ++searched_;
+    const State found = search_->advance();
+    work_s_ += search_->step_work_s();
+    if (found == State::kInfeasible) return found;
+    if (found != State::kRunning) searched_ = kSearch;
+    return searched_ == kSearch ? end_ : State::kRunning;
   }
 
   const Eigen::VectorXd& r() const override { return best_; }
   double own_eta() const override { return best_eta_; }
   double work_s() const override { return work_s_; }
   std::vector<std::string> notes() const override { return inner_->notes(); }
-  Eigen::VectorXd certificate() const override { return certificate_; }
+  Eigen::VectorXd certificate() const override {
+    return search_ ? search_->proof() : Eigen::VectorXd();
+  }
 
  private:
   State step() {
@@ -95,10 +98,7 @@ class Aclm final : public Iteration {
       eta_before_idling_ = best_eta_;
       idle_ = 0;
     }
-    if (++idle_ < patience_) return false;
-    patience_ *= 2;
-    idle_ = 0;
-    return true;
+    return ++idle_ > kPatience;
   }
 
   void measure() {
@@ -138,10 +138,10 @@ class Aclm final : public Iteration {
   double least_ = 0.0;  // least |mapped - shift| since Anderson restarted
   int inner_iterations_ = 0;
   double work_s_ = 0.0;
-  Clock::time_point began_;
-  int patience_ = kPatience, idle_ = 0;  // iterations without progress: allowed, so far
+  State end_ = State::kRunning;  // how the fixed point ended
+  int idle_ = 0, searched_ = 0;  // iterations without progress; steps of the search
   double eta_before_idling_ = 0.0;
-  Eigen::VectorXd certificate_;
+  std::unique_ptr<InfeasibilitySearch> search_;
 };
 
 }  // namespace
@@ -185,7 +185,7 @@ Method aclm() {
   return make_aclm_method(
       "aclm", "fixed point on the De Saxce term; inner semismooth Newton, augmented Lagrangian", {},
       [](const Values&) { return MakeConvex(make_ssnal); },
-      [](const Values&) -> Refuses { return [](const Problem&) { return std::nullopt; }; });
+      [](const Values&) -> Refuses { return refuse_zero_delassus; });
 }
 
 }  // namespace conebench::solvers

@@ -13,9 +13,10 @@ namespace conebench::solvers {
 /// (not of r, which need not be unique), restarted when its residual grows. The convex problem is
 /// solved to `inner` times the last change of t only, since t is not yet right.
 /// One iteration is one iteration of the inner method. For theta = 0 the first t is the answer.
-/// No convergence proof for friction: the map need not contract where mu is large. Without
-/// progress, a proof that there is no solution is tried (solvers/certificate.h), for at most a
-/// quarter of the time so far. Own test (StopTest::kOwn)  eta from the inner method's r and u.
+/// No convergence proof for friction: the map need not contract where mu is large. After 100
+/// iterations without progress, or none left, up to 200 steps of a search for a proof that there is
+/// no solution (solvers/certificate.h) go beside them.
+/// Own test (StopTest::kOwn)  eta from the inner method's r and u.
 /// Source  Acary, Cadoux, Lemarechal, Malick, ZAMM 91(2) (2011) 155-175 (not checked); Anderson on
 ///         t: ours.
 Method aclm();  ///< inner: semismooth Newton on the augmented Lagrangian (solvers/ssnal.h)

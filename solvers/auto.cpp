@@ -30,6 +30,7 @@ struct Lane {
   std::string name;
   MakeIteration make;
   double first_promise;      // work to finish before it has run, in sweeps of Gauss-Seidel
+  std::int64_t first_steps;  // of its first turn, at least
   std::int64_t usual_steps;  // of a run that succeeds without trouble
   double handover;           // a start is taken from others when better than its own by this factor
 
@@ -44,15 +45,18 @@ struct Lane {
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
+    const GaussSeidelSettings skipping{.partial_sweeps = kPartialSweeps};
+    if (!gauss_seidel_refuses(problem, skipping)) {
+      lanes_.push_back({"gs",
+                        [skipping](const Problem& p) { return make_gauss_seidel(p, skipping); },
+                        0.0, kFirstSweeps, 0, 0.1});
+    }
+    if (refuse_zero_delassus(problem)) return;
     lanes_.push_back(
-        {"gs",
-         [](const Problem& p) { return make_gauss_seidel(p, {.partial_sweeps = kPartialSweeps}); },
-         0.0, 0, 0.1});
-    lanes_.push_back(
-        {"newton-ac", [](const Problem& p) { return make_newton(p, {}); }, 300.0, 15, 1e-2});
-    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, 1500.0, 30, 0.0});
+        {"newton-ac", [](const Problem& p) { return make_newton(p, {}); }, 300.0, 1, 15, 1e-2});
+    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, 1500.0, 1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      1500.0, 60, 0.1});
+                      1500.0, 1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {
@@ -95,8 +99,11 @@ class Automatic final : public Iteration {
   }
 
  private:
+  // Work of one sweep of Gauss-Seidel, roughly.
+  double sweep_s() const { return 1e-7 * problem_.cone_count(); }
+
   bool turn_is_over(const Lane& lane) const {
-    if (current_ == 0 && lane.steps < kFirstSweeps) return false;
+    if (lane.steps < lane.first_steps) return false;
     return turn_s_ >= kTurnGrowth * (lane.done_s - turn_s_);
   }
 
@@ -104,8 +111,8 @@ class Automatic final : public Iteration {
     current_ = next;
     Lane& lane = lanes_[next];
     turn_s_ = 0.0;
-    if (!lane.iteration) {
-      lane.iteration = lane.make(problem_);
+    if (!lane.iteration) lane.iteration = lane.make(problem_);
+    if (lane.steps == 0) {
       lane.iteration->start(lane.handover > 0.0 ? best_ : guess_);
     } else if (best_eta_ < lane.handover * lane.eta) {
       lane.iteration->start(best_);
@@ -132,7 +139,6 @@ class Automatic final : public Iteration {
       const double usual = static_cast<double>(lane.usual_steps) / static_cast<double>(lane.steps);
       lane.promise_s = std::min(lane.promise_s, (usual - 1.0) * lane.done_s);
     }
-    if (current_ == 0) sweep_s_ = lane.done_s / static_cast<double>(lane.steps);
     return choose();
   }
 
@@ -144,7 +150,7 @@ class Automatic final : public Iteration {
       // What stopped may start again from a better iterate.
       const bool stuck = lane.over && !(best_eta_ < lane.handover * lane.eta);
       if (stuck) continue;
-      const double promise = lane.steps == 0 ? lane.first_promise * sweep_s_
+      const double promise = lane.steps == 0 ? lane.first_promise * sweep_s()
                              : lane.over     ? kNoPromise * lane.done_s
                                              : lane.promise_s;
       if (promise < least) {
@@ -169,7 +175,6 @@ class Automatic final : public Iteration {
   std::size_t current_ = 0;
   Eigen::VectorXd guess_, best_;
   double best_eta_ = kInfinity;
-  double sweep_s_ = 0.0;  // of Gauss-Seidel
   double turn_s_ = 0.0, turn_from_ = kInfinity;
 };
 

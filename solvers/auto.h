@@ -7,24 +7,27 @@ namespace conebench::solvers {
 /// `auto`: Gauss-Seidel, proximal Alart-Curnier Newton, the fixed point aclm and the interior point
 /// take turns on one problem, each for as long as it promises to be the first to finish.
 ///
-/// Lanes     gs, newton-ac, aclm, ipm, with their defaults; each is made when its first turn comes
-///           and keeps its factorisations.
-/// Turn      lasts until the lane has used half as much time again as before it (at least one
+/// Lanes     gs[skip=10], newton-ac, ipm, aclm; each is made when its first turn comes and keeps
+/// its
+///           factorisations. One that refuses the problem is left out.
+/// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
+///           takes the same turns in every run.
+/// Turn      lasts until the lane has done half as much work again as before it (at least one
 ///           iteration; the first one of gs: 30 sweeps). Then eta of its iterate is computed,
 ///           inside the clock.
-/// Promise   a lane whose last turn of t seconds took ln(eta) down by g finishes in about
-///           t ln(eta / tol) / g. A lane that has not run promises what a step of it is expected to
-///           cost, in sweeps of gs, times the steps it usually needs. A lane whose turn brought
-///           nothing promises 4 times the time it has had, so that all lanes stay within a constant
-///           factor of each other where none makes progress.
-/// Choice    the least promise takes the next turn. It starts from the best iterate of all lanes
-///           where that is ten times better than its own (the interior point excepted, which
-///           gains nothing from a start on the boundary).
+/// Promise   a lane whose last turn of work t took ln(eta) down by g finishes within about
+///           t ln(eta / tol) / g. One whose turn brought nothing promises 4 times the work done, so
+///           that lanes without progress stay within a constant factor of each other. Before it has
+///           done the steps it usually needs (newton-ac 15, ipm 30, aclm 60), a lane promises at
+///           most the work of the rest; before its first turn, a number of sweeps of gs.
+/// Choice    the least promise takes the next turn. It starts again from the best iterate of all
+///           lanes where that is far better than its own (gs, aclm: 10 times; newton-ac, whose path
+///           matters: 100 times; ipm, which gains nothing from a start on the boundary: never).
+///           A lane that stopped goes on only in this way.
 ///
 /// Evidence: on hyperstatic piles Gauss-Seidel crawls where Newton with a proximal term finishes in
 /// a few steps, on sphere packings the other way round, and nothing in the data tells them apart
-/// beforehand; progress does. The whole time is at most (lanes + 1) times that of the best lane,
-/// up to the growth of turns.
+/// beforehand; progress does. Aims at a small multiple of the best lane's time; there is no proof.
 /// Own test (StopTest::kOwn)  that of the lane, verified with eta.
 Method automatic();
 

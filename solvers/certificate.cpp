@@ -14,7 +14,6 @@ namespace conebench::solvers {
 namespace {
 
 using problems::Cone;
-using problems::Metadata;
 using problems::Problem;
 using problems::SparseMatrix;
 using Clock = std::chrono::steady_clock;
@@ -29,6 +28,7 @@ constexpr double kDepths[] = {0.1, 1e-3, 1e-6};
 // A rate this close to its cone, in units of U, is in it: then no proof of the contrary exists.
 constexpr double kFeasible = 1e-9;
 constexpr double kTolerance = 1e-12;  // of the convex problems, in units of U
+constexpr int kSteps = 300;           // of one search for a strictly feasible velocity
 
 Eigen::VectorXd magnitudes(const SparseMatrix& A, const Eigen::VectorXd& x) {
   return A.cwiseAbs() * x.cwiseAbs();
@@ -60,6 +60,10 @@ bool in_cone(const Problem& problem, const Eigen::VectorXd& y) {
   return true;
 }
 
+bool has_symmetric_delassus(const Problem& problem) {
+  return problem.is_primal() || problems::asymmetry(problem.W()) <= kSymmetric;
+}
+
 // |H^T y| in the norm of M^-1, rounding added.
 double energy(const Problem& problem, const Eigen::VectorXd& y) {
   if (!problem.is_primal()) {
@@ -69,17 +73,20 @@ double energy(const Problem& problem, const Eigen::VectorXd& y) {
   const Eigen::VectorXd b = problem.H().transpose() * y;
   const Eigen::VectorXd rounding =
       kRounding * (SparseMatrix(problem.H().transpose()).cwiseAbs() * y.cwiseAbs());
+  // |M^-1| <= M^-1 entry by entry where M is an M-matrix, as the coupled ones of engines are.
   return std::sqrt(std::max(0.0, b.dot(problem.inertia().solve(b)))) +
-         (problem.inertia().inverse_root().transpose().cwiseAbs() * rounding).norm();
+         std::sqrt(std::max(0.0, rounding.dot(problem.inertia().solve(rounding))));
 }
 
-// The data's own velocity, in the norm of M.
+// The data's own velocity, in the norm of M: free motion, and what closes the cones.
 double energy_scale(const Problem& problem) {
   const Eigen::VectorXd& offset = problem.is_primal() ? problem.w() : problem.q();
   double sum = problem.is_primal() ? problem.f().dot(problem.inertia().solve(problem.f())) : 0.0;
   for (int i = 0; i < problem.cone_count(); ++i) {
-    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
-    sum += offset.segment(problem.start(i), dim).squaredNorm() / problem.mobility()(i);
+    const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
+    Eigen::VectorXd closing = -offset.segment(problem.start(i), cone.dim);
+    problems::project(cone.mu, closing);
+    sum += closing.squaredNorm() / problem.mobility()(i);
   }
   return std::sqrt(sum);
 }
@@ -103,6 +110,13 @@ SparseMatrix identity(int rows) {
   return I;
 }
 
+std::unique_ptr<ConvexIteration> pose(const Problem& problem) {
+  std::unique_ptr<ConvexIteration> iteration = make_ssnal(problem);
+  iteration->pose(Eigen::VectorXd::Zero(problem.cone_count()),
+                  Eigen::VectorXd::Zero(problem.rows()));
+  return iteration;
+}
+
 // u - m e_n in K_mu*.
 Problem inner_problem(const Problem& problem, double depth) {
   std::vector<Cone> cones;
@@ -115,49 +129,33 @@ Problem inner_problem(const Problem& problem, double depth) {
   return associated(problem, identity(problem.rows()), std::move(cones), offset);
 }
 
-// The rows that u_n >= (mu - theta) |u_t| speaks of.
-SparseMatrix necessary_rows(const Problem& problem, std::vector<Cone>& cones) {
-  std::vector<Eigen::Triplet<double, int>> entries;
-  int row = 0;
-  for (int i = 0; i < problem.cone_count(); ++i) {
-    const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
-    const int dim = cone.theta < cone.mu ? cone.dim : 1;
-    cones.push_back(Cone::associated(dim, cone.mu - cone.theta));
-    for (int k = 0; k < dim; ++k) entries.emplace_back(row++, problem.start(i) + k, 1.0);
+// The rows that u_n >= (mu - theta) |u_t| speaks of, and their cones.
+struct NecessaryRows {
+  explicit NecessaryRows(const Problem& problem) {
+    std::vector<Eigen::Triplet<double, int>> entries;
+    int row = 0;
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
+      const int dim = cone.theta < cone.mu ? cone.dim : 1;
+      cones.push_back(Cone::associated(dim, cone.mu - cone.theta));
+      for (int k = 0; k < dim; ++k) entries.emplace_back(row++, problem.start(i) + k, 1.0);
+    }
+    keep.resize(row, problem.rows());
+    keep.setFromTriplets(entries.begin(), entries.end());
   }
-  SparseMatrix keep(row, problem.rows());
-  keep.setFromTriplets(entries.begin(), entries.end());
-  return keep;
-}
 
-// Iterates on an associated problem until its rate is inside the cones to `enough` (an
-// interior_margin), or its reactions, diverging, are a proof that it has no solution.
-template <class IsProof>
-Eigen::VectorXd settle(const Problem& problem, double enough, const IsProof& is_proof,
-                       Clock::time_point deadline) {
-  const std::unique_ptr<ConvexIteration> iteration = make_ssnal(problem);
-  iteration->pose(Eigen::VectorXd::Zero(problem.cone_count()),
-                  Eigen::VectorXd::Zero(problem.rows()));
-  auto settled = [&] {
-    return interior_margin(problem, iteration->r()) >= enough || is_proof(iteration->r());
-  };
-  while (!settled() && Clock::now() < deadline) {
+  std::vector<Cone> cones;
+  SparseMatrix keep;
+};
+
+// Iterates on an associated problem until its rate is inside the cones by `enough`.
+Eigen::VectorXd settle(const Problem& problem, double enough, Clock::time_point deadline) {
+  const std::unique_ptr<ConvexIteration> iteration = pose(problem);
+  for (int step = 0; step < kSteps && Clock::now() < deadline; ++step) {
+    if (interior_margin(problem, iteration->r()) >= enough) break;
     if (iteration->advance(kTolerance) != Iteration::State::kRunning) break;
   }
   return iteration->r();
-}
-
-std::optional<Eigen::VectorXd> infeasible_before(const Problem& problem,
-                                                 Clock::time_point deadline) {
-  std::vector<Cone> cones;
-  const SparseMatrix keep = necessary_rows(problem, cones);
-  const SparseMatrix spread = keep.transpose();
-  auto is_proof = [&](const Eigen::VectorXd& y) { return proves_infeasible(problem, spread * y); };
-  const Problem necessary =
-      associated(problem, keep, std::move(cones), Eigen::VectorXd::Zero(keep.rows()));
-  const Eigen::VectorXd y = settle(necessary, -kFeasible, is_proof, deadline);
-  if (!is_proof(y)) return std::nullopt;
-  return spread * (y / y.norm());
 }
 
 Clock::time_point after(double seconds) {
@@ -173,8 +171,7 @@ Certificate existing(Eigen::VectorXd r, double margin, std::string text) {
 std::optional<Certificate> exists_before(const Problem& problem, Clock::time_point deadline) {
   for (const double depth : kDepths) {
     const Problem inner = inner_problem(problem, depth * problem.rate_scale());
-    auto is_proof = [&](const Eigen::VectorXd& y) { return proves_infeasible(inner, y); };
-    Eigen::VectorXd r = settle(inner, -0.5 * depth, is_proof, deadline);
+    Eigen::VectorXd r = settle(inner, -0.5 * depth, deadline);
     const double margin = interior_margin(problem, r);
     if (margin <= 0.0) continue;
     return existing(
@@ -201,6 +198,8 @@ std::string_view to_string(Existence existence) {
 }
 
 double interior_margin(const Problem& problem, const Eigen::VectorXd& r) {
+  // The reduced form knows the rate of any velocity only where W is H M^-1 H^T.
+  if (!has_symmetric_delassus(problem)) return -kInfinity;
   Eigen::VectorXd u, rounding;
   rate_with_rounding(problem, r, u, rounding);
   double least = kInfinity;
@@ -210,43 +209,77 @@ double interior_margin(const Problem& problem, const Eigen::VectorXd& r) {
     const auto error = rounding.segment(problem.start(i), cone.dim);
     const double slack = part(0) - cone.mu * problems::tangential_norm(part) - error(0) -
                          cone.mu * problems::tangential_norm(error);
-    if (!(slack >= least)) least = slack;
+    if (std::isnan(slack)) return -kInfinity;
+    least = std::min(least, slack);
   }
   return problem.rate_scale() > 0.0 ? least / problem.rate_scale() : least;
 }
 
 double infeasibility_margin(const Problem& problem, const Eigen::VectorXd& y) {
   if (y.size() != problem.rows() || !y.allFinite() || !in_cone(problem, y)) return 0.0;
-  if (!problem.is_primal() && problems::asymmetry(problem.W()) > kSymmetric) return 0.0;
+  if (!has_symmetric_delassus(problem)) return 0.0;
   const Eigen::VectorXd& offset = problem.is_primal() ? problem.w() : problem.q();
   const double closing = -offset.dot(y) - kRounding * offset.cwiseAbs().dot(y.cwiseAbs());
-  return closing > 0.0 ? closing / (energy(problem, y) * energy_scale(problem)) : 0.0;
+  if (!(closing > 0.0)) return 0.0;
+  const double product = energy(problem, y) * energy_scale(problem);
+  return product > 0.0 ? closing / product : kInfinity;
 }
 
 bool proves_infeasible(const Problem& problem, const Eigen::VectorXd& y) {
   return infeasibility_margin(problem, y) >= kProof;
 }
 
-std::optional<Eigen::VectorXd> prove_infeasible(const Problem& problem, double time_limit_s) {
-  return infeasible_before(problem, after(time_limit_s));
+struct InfeasibilitySearch::Parts {
+  explicit Parts(const Problem& given)
+      : problem(given),
+        rows(given),
+        spread(rows.keep.transpose()),
+        necessary(
+            associated(given, rows.keep, rows.cones, Eigen::VectorXd::Zero(rows.keep.rows()))),
+        iteration(pose(necessary)) {}
+
+  const Problem& problem;
+  NecessaryRows rows;
+  SparseMatrix spread;
+  Problem necessary;
+  std::unique_ptr<ConvexIteration> iteration;
+  Eigen::VectorXd proof;
+};
+
+InfeasibilitySearch::InfeasibilitySearch(const Problem& problem)
+    : parts_(std::make_unique<Parts>(problem)) {}
+InfeasibilitySearch::~InfeasibilitySearch() = default;
+
+Iteration::State InfeasibilitySearch::advance() {
+  const Eigen::VectorXd& r = parts_->iteration->r();
+  const Eigen::VectorXd y = parts_->spread * r;
+  if (proves_infeasible(parts_->problem, y)) {
+    parts_->proof = y / y.norm();
+    return Iteration::State::kInfeasible;
+  }
+  if (interior_margin(parts_->necessary, r) >= -kFeasible) return Iteration::State::kStalled;
+  return parts_->iteration->advance(kTolerance);
 }
 
+const Eigen::VectorXd& InfeasibilitySearch::proof() const { return parts_->proof; }
+double InfeasibilitySearch::step_work_s() const { return parts_->iteration->step_work_s(); }
+
 Certificate certify(const Problem& problem, double time_limit_s) {
-  const Clock::time_point start = Clock::now();
+  const Clock::time_point deadline = after(time_limit_s);
   const Problem standard = problem.shifted();
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(problem.rows());
   if (problems::evaluate_eta(standard, none) == 0.0) return existing(none, 0.0, "r = 0 solves it");
   if (auto found = exists_before(standard, after(0.5 * time_limit_s))) return *std::move(found);
-  const std::chrono::duration<double> spent = Clock::now() - start;
-  if (auto y = prove_infeasible(standard, time_limit_s - spent.count())) {
-    const double margin = infeasibility_margin(standard, *y);
+  InfeasibilitySearch search(standard);
+  Iteration::State state = Iteration::State::kRunning;
+  while (state == Iteration::State::kRunning && Clock::now() < deadline) state = search.advance();
+  if (state == Iteration::State::kInfeasible) {
+    const double margin = infeasibility_margin(standard, search.proof());
     return {Existence::kNone,
             {},
-            *std::move(y),
+            search.proof(),
             margin,
-            fmt::format("a solution would need velocities {:.3g} times those of the data: there "
-                        "is none",
-                        margin)};
+            fmt::format("no solution has velocities below {:.3g} times those of the data", margin)};
   }
   return {Existence::kUnknown,
           {},

@@ -1,5 +1,8 @@
 #include "solvers/convex.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace conebench::solvers {
 
 Eigen::VectorXd de_saxce_shift(const problems::Problem& problem, const Eigen::VectorXd& u) {
@@ -23,7 +26,8 @@ double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shi
     z(0) -= shift(i) / lambda;
     problems::project(cone.mu, z);
     const double error = lambda * (r.segment(at, cone.dim) - z).norm();
-    if (!(error <= worst)) worst = error;  // a NaN stays
+    if (std::isnan(error)) return error;
+    worst = std::max(worst, error);
   }
   return problem.rate_scale() > 0.0 ? worst / problem.rate_scale() : worst;
 }

@@ -23,6 +23,7 @@ constexpr double kNoProgress = 1e-16;
 // costs a verification now and then.
 constexpr double kChangePerEta = 10.0;
 constexpr int kPartialSweepsOfIslands = 9;
+constexpr int kMostDenseRows = 6000;  // 300 MB of W
 
 int partial_sweeps(const GaussSeidelSettings& settings) {
   if (settings.partial_sweeps > 0) return static_cast<int>(settings.partial_sweeps);
@@ -189,6 +190,10 @@ std::optional<std::string> gauss_seidel_refuses(const Problem& problem,
                                                 const GaussSeidelSettings& settings) {
   if (settings.form == Form::kVelocity && !has_velocity_form(problem)) {
     return "form=velocity needs M and H with M block diagonal";
+  }
+  if (problem.is_primal() && !has_velocity_form(problem) && problem.rows() > kMostDenseRows) {
+    return fmt::format("M couples many dofs, so that W is dense: {} rows, expected at most {}",
+                       problem.rows(), kMostDenseRows);
   }
   if (settings.local != LocalKind::kQuartic) return std::nullopt;
   for (const Cone& cone : problem.cones()) {

@@ -116,8 +116,7 @@ Method interior_point() {
                 .parameters = {},
                 .make = {}};
   method.make = [method](const Values& values) {
-    return make_iterative_solver(
-        method, values, [](const Problem&) { return std::nullopt; }, make_ipm);
+    return make_iterative_solver(method, values, refuse_zero_delassus, make_ipm);
   };
   return method;
 }
@@ -133,8 +132,8 @@ Method aclm_interior_point() {
       },
       [](const Values& values) -> Refuses {
         return [form = form_of(values)](const Problem& problem) -> std::optional<std::string> {
-          if (form != Form::kKkt || problem.is_primal()) return std::nullopt;
-          return "form=kkt needs M and H";
+          if (form == Form::kKkt && !problem.is_primal()) return "form=kkt needs M and H";
+          return refuse_zero_delassus(problem);
         };
       });
 }

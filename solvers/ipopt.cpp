@@ -213,11 +213,6 @@ class OneShot {
   Result result_;
 };
 
-std::optional<std::string> refuses(const Problem& problem) {
-  if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
-  return std::nullopt;
-}
-
 }  // namespace
 
 Method ipopt() {
@@ -231,7 +226,7 @@ Method ipopt() {
                   Monitor& monitor) {
       return OneShot(problem, stop, monitor).solve(std::move(guess));
     };
-    return make_checked_solver(method, values, refuses, run);
+    return make_checked_solver(method, values, refuse_zero_delassus, run);
   };
   return method;
 }

@@ -149,11 +149,6 @@ class IpoptConvex final : public ConvexIteration {
   double error_ = kInfinity;
 };
 
-std::optional<std::string> refuses(const Problem& problem) {
-  if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::unique_ptr<ConvexIteration> make_ipopt_convex(const Problem& problem) {
@@ -164,7 +159,7 @@ Method aclm_ipopt() {
   return make_aclm_method(
       "aclm-ipopt", "fixed point on the De Saxce term; inner Ipopt on the convex cone program", {},
       [](const Values&) { return MakeConvex(make_ipopt_convex); },
-      [](const Values&) { return Refuses(refuses); });
+      [](const Values&) { return Refuses(refuse_zero_delassus); });
 }
 
 }  // namespace conebench::solvers

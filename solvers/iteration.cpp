@@ -50,8 +50,11 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
         monitor.conclude(verified() ? Status::kConverged : why, result.iterations, iteration.r());
     break;
   }
-  const bool at_best = result.status == Status::kConverged || !(best_eta < iteration.own_eta());
-  result.r = at_best ? iteration.r() : best;
+  result.r = iteration.r();
+  if (result.status != Status::kConverged && stop.test == StopTest::kOwn &&
+      problems::evaluate_eta(problem, best) < problems::evaluate_eta(problem, result.r)) {
+    result.r = best;
+  }
   result.notes = iteration.notes();
   return result;
 }

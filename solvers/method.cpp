@@ -35,6 +35,11 @@ void note_asymmetry(const Problem& problem, Result& result) {
 
 }  // namespace
 
+std::optional<std::string> refuse_zero_delassus(const Problem& problem) {
+  if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
+  return std::nullopt;
+}
+
 Solver make_checked_solver(const Method& method, const Values& values, Refuses refuses,
                            Iterate iterate) {
   auto solve = [refuses, iterate = std::move(iterate)](const Problem& problem,

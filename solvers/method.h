@@ -13,6 +13,9 @@ using Iterate = std::function<Result(const problems::Problem& standard, const St
 /// Why a method refuses a problem, or nothing.
 using Refuses = std::function<std::optional<std::string>(const problems::Problem&)>;
 
+/// The refusal of methods that divide by the mobility: cones, but W = 0.
+std::optional<std::string> refuse_zero_delassus(const problems::Problem& problem);
+
 /// Wraps a method's iteration in what every solver owes its callers: the request is checked, the
 /// guess completed, clock times filled in, the best iterate returned. With StopTest::kCommon the
 /// best is the monitor's; with kOwn the method's last.

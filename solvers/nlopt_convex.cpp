@@ -24,6 +24,7 @@ using RowMatrix =
 
 constexpr double kEps = 1e-10 * Dimensionless::kRateScale;
 constexpr int kEvaluations = 300;
+constexpr double kLongestRun_s = 1.0;  // of the algorithm, at whose end the limits are looked at
 // A run that does not lower the error by this factor is the last.
 constexpr double kProgress = 0.9;
 // Of auglag's inner problems.
@@ -129,6 +130,7 @@ class NloptConvex final : public ConvexIteration {
                                        &NloptConvex::constraints, this, exact.data());
     }
     nlopt_set_maxeval(optimizer.get(), kEvaluations);
+    nlopt_set_maxtime(optimizer.get(), kLongestRun_s);
     if (settings_.algorithm == Algorithm::kAuglag) {
       const Optimizer inner(nlopt_create(NLOPT_LD_LBFGS, rows));
       nlopt_set_maxeval(inner.get(), kInnerEvaluations);
@@ -217,8 +219,7 @@ NloptSettings settings_from(const Values& values) {
 Refuses refuses(const NloptSettings& settings) {
   return [limit = largest_rows(settings.algorithm)](
              const Problem& problem) -> std::optional<std::string> {
-    if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
-    if (problem.rows() <= limit) return std::nullopt;
+    if (problem.rows() <= limit) return refuse_zero_delassus(problem);
     return fmt::format("{} rows, expected at most {} (NLopt's matrices are dense)", problem.rows(),
                        limit);
   };

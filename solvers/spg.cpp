@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/convex.h"
+
 namespace conebench::solvers {
 namespace {
 
@@ -57,26 +59,25 @@ class History {
   std::vector<Entry> entries_;
 };
 
-class Iteration {
+class Spg final : public Iteration {
  public:
-  Iteration(const Problem& problem, const Settings& settings, Eigen::VectorXd guess)
-      : problem_(problem),
-        settings_(settings),
-        r_(std::move(guess)),
-        theta_s_(Eigen::VectorXd::Zero(problem.cone_count())),
-        history_(settings.memory) {
-    for (int i = 0; i < problem.cone_count(); ++i) project(i, r_);
-    u_ = problem.rate(r_);
+  Spg(const Problem& problem, const Settings& settings) : problem_(problem), settings_(settings) {}
+
+  void start(const Eigen::VectorXd& r) override {
+    r_ = r;
+    for (int i = 0; i < problem_.cone_count(); ++i) project(i, r_);
+    u_ = problem_.rate(r_);
+    alpha_ = 1.0;
+    history_ = History(settings_.memory);
+    iterations_ = 0;
+    still_ = true;
   }
 
-  const Eigen::VectorXd& r() const { return r_; }
-  bool stalled() const { return stalled_; }
-
-  void advance(std::int64_t iteration) {
-    if (iteration % kIterationsPerRefresh == 0 && iteration > 0) u_ = problem_.rate(r_);
+  State advance() override {
+    if (++iterations_ % kIterationsPerRefresh == 0) u_ = problem_.rate(r_);
     // A subproblem solved to rounding before its time is over is refreshed at once.
-    const bool fresh = still_ || iteration % settings_.refresh == 0;
-    if (fresh) theta_s_ = de_saxce();
+    const bool fresh = still_ || iterations_ % settings_.refresh == 0;
+    if (fresh) theta_s_ = de_saxce_shift(problem_, u_);
     const Eigen::VectorXd gradient = shifted_rate(theta_s_);
     const Eigen::VectorXd d = projected_step(gradient, alpha_);
     const Eigen::VectorXd Wd = problem_.apply_delassus(d);
@@ -88,14 +89,15 @@ class Iteration {
     const double t = line_search(f, slope, curvature);
     r_ += t * d;
     u_ += t * Wd;
+    if (!r_.allFinite()) return State::kDiverged;
     update_alpha(d, Wd, curvature);
     still_ = size_as_rate(d) * t <= kNoProgress * size_as_rate(r_);
-    stalled_ = still_ && fresh;
+    return still_ && fresh ? State::kStalled : State::kRunning;
   }
 
-  // max lambda_i |r_i - P_K(r_i - u_hat_i / lambda_i)| with the De Saxce term of the current u.
-  double natural_residual() const {
-    return size_as_rate(projected_step(shifted_rate(de_saxce()), 1.0));
+  const Eigen::VectorXd& r() const override { return r_; }
+  double own_eta() const override {
+    return convex_error(problem_, de_saxce_shift(problem_, u_), r_, u_);
   }
 
  private:
@@ -111,15 +113,6 @@ class Iteration {
       auto part = x.segment(at, cone(i).dim);
       problems::project(cone(i).mu, part);
     }
-  }
-
-  // theta_i |u_it| of the current iterate.
-  Eigen::VectorXd de_saxce() const {
-    Eigen::VectorXd theta_s(problem_.cone_count());
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      theta_s(i) = cone(i).theta * u_.segment(problem_.start(i) + 1, cone(i).dim - 1).norm();
-    }
-    return theta_s;
   }
 
   Eigen::VectorXd shifted_rate(const Eigen::VectorXd& theta_s) const {
@@ -183,38 +176,12 @@ class Iteration {
   const Problem& problem_;
   Settings settings_;
   Eigen::VectorXd r_, u_;
-  Eigen::VectorXd theta_s_;  // theta_i s_i
+  Eigen::VectorXd theta_s_;  // theta_i |u_it| as last refreshed
   double alpha_ = 1.0;
-  History history_;
-  bool still_ = false;    // the last step was rounding
-  bool stalled_ = false;  // and its De Saxce term was that of its own iterate
+  History history_{1};
+  std::int64_t iterations_ = 0;
+  bool still_ = true;  // the last step was rounding, or there was none
 };
-
-Result iterate(const Problem& problem, const Settings& settings, const Stop& stop,
-               Eigen::VectorXd guess, Monitor& monitor) {
-  Iteration iteration(problem, settings, std::move(guess));
-  monitor.setup_done();
-  Result result;
-  while (true) {
-    if (monitor.check(result.iterations, iteration.r()) == Verdict::kStop) {
-      result.status = monitor.status();
-      break;
-    }
-    if (iteration.stalled()) {
-      result.status = monitor.conclude(Status::kStalled, result.iterations, iteration.r());
-      break;
-    }
-    iteration.advance(result.iterations);
-    ++result.iterations;
-    if (stop.test == StopTest::kOwn &&
-        iteration.natural_residual() <= stop.tol * problem.rate_scale()) {
-      result.status = Status::kConverged;
-      break;
-    }
-  }
-  result.r = iteration.r();
-  return result;
-}
 
 Solver make(const Method& method, const Values& values) {
   const std::string step = std::get<std::string>(values.at("step"));
@@ -223,15 +190,9 @@ Solver make(const Method& method, const Values& values) {
                           step == "long"    ? Step::kLong
                           : step == "short" ? Step::kShort
                                             : Step::kAdaptive};
-  auto refuses = [](const Problem& problem) -> std::optional<std::string> {
-    if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
-    return std::nullopt;
-  };
-  auto run = [settings](const Problem& problem, const Stop& stop, Eigen::VectorXd guess,
-                        Monitor& monitor) {
-    return iterate(problem, settings, stop, std::move(guess), monitor);
-  };
-  return make_checked_solver(method, values, refuses, run);
+  return make_iterative_solver(
+      method, values, refuse_zero_delassus,
+      [settings](const Problem& problem) { return std::make_unique<Spg>(problem, settings); });
 }
 
 }  // namespace

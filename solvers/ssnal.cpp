@@ -66,22 +66,20 @@ class Ssnal final : public ConvexIteration {
 
   State advance(double tolerance) override {
     evaluate();
-    Eigen::VectorXd gap = P_ - r_;
-    const double residual = size(gap), way = alpha_ * size(P_ - c_);
+    const double residual = size(P_ - r_), way = alpha_ * size(P_ - c_);
     const double enough = std::max(kInexactness * way, kRounding * size(P_));
     if (residual <= enough || (residual <= 0.1 * tolerance * problem_.rate_scale() && steps_ > 0)) {
       const bool still = way <= kRounding * size(P_) && steps_ == 0;
       next_multipliers();
       if (still) return State::kStalled;
       evaluate();
-      gap = P_ - r_;
     }
     if (steps_ > kHard) harder();
-    if (!factorize()) return State::kDiverged;
+    if (!factorize()) return leave(State::kDiverged);
     ++steps_;
-    const Eigen::VectorXd dr = system_.solve(gap);
+    const Eigen::VectorXd dr = system_.solve(P_ - r_);
     const Eigen::VectorXd du = problem_.apply_delassus(dr);
-    if (!dr.allFinite() || !du.allFinite()) return State::kDiverged;
+    if (!dr.allFinite() || !du.allFinite()) return leave(State::kDiverged);
     step(dr, du);
     return State::kRunning;
   }
@@ -96,6 +94,12 @@ class Ssnal final : public ConvexIteration {
  private:
   const Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
   double sigma(int i) const { return 1.0 / (alpha_ * problem_.mobility()(i)); }
+
+  // u() belongs to r() whichever way an iteration ends.
+  State leave(State state) {
+    uP_ = problem_.rate(P_);
+    return state;
+  }
 
   // max lambda_i |x_i|.
   double size(const Eigen::VectorXd& x) const {

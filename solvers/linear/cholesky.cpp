@@ -12,7 +12,10 @@ constexpr double kSecondsPerFlop = 0.2e-9, kSecondsPerNonzero = 25e-9;
 
 #ifdef CONEBENCH_SUITESPARSE
 struct Cholesky::Factor : Eigen::CholmodDecomposition<Matrix, Eigen::Lower> {
-  Factor() { cholmod().print = 0; }  // a failed pivot is an answer, not a message
+  Factor() {
+    cholmod().print = 0;     // a failed pivot is an answer, not a message
+    cholmod().final_ll = 1;  // L L^T also where it is simplicial: an indefinite matrix fails
+  }
   double flops() { return cholmod().fl; }
   double nonzeros() { return cholmod().lnz; }
 };

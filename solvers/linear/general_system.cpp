@@ -151,8 +151,10 @@ struct GeneralSystem::Full {
 GeneralSystem::GeneralSystem(const Problem& problem, Form form, bool right_scaled) {
   bool full = form == Form::kFull;
   if (form == Form::kAuto && problem.is_primal()) {
-    full = problem.delassus().nonZeros() >
-           problem.M().nonZeros() + 2 * problem.H().nonZeros() + 3 * problem.rows();
+    // A coupled M makes W dense, too dear even to count.
+    full = !problem.inertia().block_diagonal() ||
+           problem.delassus().nonZeros() >
+               problem.M().nonZeros() + 2 * problem.H().nonZeros() + 3 * problem.rows();
   }
   if (full) {
     full_ = std::make_unique<Full>(problem, right_scaled);

@@ -9,7 +9,8 @@ namespace conebench::solvers {
 ///
 /// kReduced  factorises A + B W itself (rows() unknowns, W assembled).
 /// kFull     factorises [M, -H^T; B H, A] (dofs() + rows() unknowns, W never formed). Primal only.
-/// kAuto     kFull where it is possible and W has more nonzeros than M, H and H^T together.
+/// kAuto     kFull where it is possible and W has more nonzeros than M, H, H^T and 3 rows()
+///           together, or M couples more than one block of dofs, which makes W dense.
 /// Pattern analysed once, at construction.
 class GeneralSystem {
  public:

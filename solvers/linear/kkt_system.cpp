@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <set>
 #include <vector>
 
 namespace conebench::solvers {
@@ -85,8 +86,11 @@ std::int64_t KktSystem::nonzeros(const Problem& problem) {
   std::int64_t coupling = 0;
   for (int i = 0; i < problem.cone_count(); ++i) {
     const int dim = problem.cones()[static_cast<std::size_t>(i)].dim, at = problem.start(i);
-    const int* starts = problem.H().outerIndexPtr();
-    coupling += dim * (starts[at + dim] - starts[at]) / std::max(dim, 1);
+    std::set<Eigen::Index> touched;
+    for (int row = at; row < at + dim; ++row) {
+      for (SparseMatrix::InnerIterator it(problem.H(), row); it; ++it) touched.insert(it.col());
+    }
+    coupling += dim * static_cast<std::int64_t>(touched.size());
   }
   return problem.M().nonZeros() / 2 + coupling + problem.rows();
 }

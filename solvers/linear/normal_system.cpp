@@ -20,6 +20,7 @@ class ConeRows {
   explicit ConeRows(const Problem& problem) {
     begin_.push_back(0);
     value_begin_.push_back(0);
+    for (const auto& cone : problem.cones()) dims_.push_back(cone.dim);
     const SparseMatrix& H = problem.H();
     for (int i = 0; i < problem.cone_count(); ++i) {
       const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
@@ -51,14 +52,13 @@ class ConeRows {
   }
   Eigen::Map<const Eigen::MatrixXd> block(int i) const {
     const auto k = static_cast<std::size_t>(i);
-    const auto columns = static_cast<Eigen::Index>(begin_[k + 1] - begin_[k]);
-    const auto size = static_cast<Eigen::Index>(value_begin_[k + 1] - value_begin_[k]);
-    return {values_.data() + value_begin_[k], columns == 0 ? 0 : size / columns, columns};
+    return {values_.data() + value_begin_[k], dims_[k],
+            static_cast<Eigen::Index>(begin_[k + 1] - begin_[k])};
   }
 
  private:
   std::vector<std::size_t> begin_, value_begin_;
-  std::vector<int> dofs_;
+  std::vector<int> dims_, dofs_;
   std::vector<double> values_;
 };
 
@@ -66,6 +66,7 @@ class ConeRows {
 Matrix pattern(const Problem& problem, const ConeRows& rows) {
   const int dofs = problem.dofs();
   std::vector<std::vector<int>> columns(static_cast<std::size_t>(dofs));
+  std::vector<std::size_t> limits(columns.size(), 512);  // length at which a column is settled
   auto settle = [](std::vector<int>& column) {
     std::sort(column.begin(), column.end());
     column.erase(std::unique(column.begin(), column.end()), column.end());
@@ -75,7 +76,10 @@ Matrix pattern(const Problem& problem, const ConeRows& rows) {
     for (std::size_t k = 0; k < touched.size(); ++k) {
       auto& column = columns[static_cast<std::size_t>(touched[k])];
       column.insert(column.end(), touched.begin() + static_cast<std::ptrdiff_t>(k), touched.end());
-      if (column.size() > 512) settle(column);
+      std::size_t& limit = limits[static_cast<std::size_t>(touched[k])];
+      if (column.size() <= limit) continue;
+      settle(column);
+      limit = std::max(limit, 2 * column.size());
     }
   }
   for (int row = 0; row < dofs; ++row) {
@@ -273,10 +277,6 @@ double NormalSystem::work_s() const {
 
 std::int64_t NormalSystem::nonzeros(const Problem& problem) {
   return pattern(problem, ConeRows(problem)).nonZeros();
-}
-
-Eigen::VectorXd NormalSystem::solve_velocity(const Eigen::VectorXd& b) const {
-  return primal_->cholesky.solve(b);
 }
 
 }  // namespace conebench::solvers

@@ -9,8 +9,8 @@ namespace conebench::solvers {
 ///
 /// Primal form, W = H M^-1 H^T: with y = (M + H^T E H)^-1 H^T b, x = b - E H y. The matrix is
 /// positive definite of size dofs whatever the rank of W, and its pattern never changes.
-/// Reduced form: with G = E^(1/2), x = b - G (I + G W G)^-1 G W b, W's symmetric part in the
-/// matrix.
+/// Reduced form: with G = E^(1/2), x = b - G (I + G W G)^-1 G W b, of W the blocks on
+/// and below the diagonal, mirrored.
 ///
 /// Cost    construction analyses the pattern; factorize() one sparse Cholesky.
 class NormalSystem {
@@ -32,9 +32,6 @@ class NormalSystem {
 
   /// Nonzeros of the lower triangle of M + H^T E H, to compare with another form's. Primal only.
   static std::int64_t nonzeros(const problems::Problem& problem);
-
-  /// Primal form only: (M + H^T E H)^-1 b.
-  Eigen::VectorXd solve_velocity(const Eigen::VectorXd& b) const;
 
  private:
   struct Primal;

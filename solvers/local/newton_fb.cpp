@@ -80,7 +80,7 @@ void NewtonFbLocal<D>::evaluate(const Vector& q, const Vector& r, Point& point) 
   point.F(0) -= 0.5 * (low + high);
   point.F.template segment<T>(1, tangents) -= 0.5 * (high - low) * e;
 
-  // dx = root diag(mu, 1, ..): columns.
+  // dx = root diag(normal, tangent, ..): columns.
   Vector dx = Vector::Constant(q.size(), root * tangent);
   dx(0) = root * normal;
   point.jacobian = dy;

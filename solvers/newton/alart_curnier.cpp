@@ -43,6 +43,10 @@ void AlartCurnier::jacobian(const Cone& cone, const ConstPart& p, const ConstPar
   }
   auto dp_tt = dp.bottomRightCorner(tangents, tangents);
   auto du_tt = du.bottomRightCorner(tangents, tangents);
+  if (!(radius > 0.0)) {
+    dp_tt.setIdentity();
+    return;
+  }
   if (norm <= radius) {
     du_tt.diagonal().setConstant(rho_);
     return;
@@ -53,7 +57,6 @@ void AlartCurnier::jacobian(const Cone& cone, const ConstPart& p, const ConstPar
   du_tt.diagonal().array() += rho_ * radius / norm;
   dp_tt = -du_tt / rho_;
   dp_tt.diagonal().array() += 1.0;
-  if (!(radius > 0.0)) return;
   dp.col(0).tail(tangents) = -cone.mu * e;
   if (radius_ == Radius::kAlartCurnier) {
     du.col(0).tail(tangents) = rho_ * cone.mu * e;

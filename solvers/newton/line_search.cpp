@@ -6,7 +6,7 @@
 namespace conebench::solvers {
 namespace {
 
-constexpr std::size_t kMemory = 10;
+constexpr std::size_t kMemory = 9;  // merits of earlier iterates
 constexpr int kTrials = 30;
 constexpr double kArmijoShare = 1e-4;
 constexpr double kShortest = 0.9, kLongest = 0.1;  // Goldstein and Price
@@ -50,11 +50,19 @@ std::optional<double> StepLength::find(const Merit& merit, double merit0, double
     case LineSearch::kGoldsteinPrice:
       return goldstein_price(merit, merit0, slope0);
     case LineSearch::kNonMonotone:
-      if (merits_.size() == kMemory) merits_.pop_front();
-      merits_.push_back(merit0);
-      return armijo(merit, *std::max_element(merits_.begin(), merits_.end()), slope0);
+      return non_monotone(merit, merit0, slope0);
   }
   return std::nullopt;
+}
+
+std::optional<double> StepLength::non_monotone(const Merit& merit, double merit0, double slope0) {
+  double reference = merit0;
+  for (const double before : merits_) reference = std::max(reference, before);
+  const auto t = armijo(merit, reference, slope0);
+  if (!t) return t;
+  if (merits_.size() == kMemory) merits_.pop_front();
+  merits_.push_back(merit0);
+  return t;
 }
 
 }  // namespace conebench::solvers

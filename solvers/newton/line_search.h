@@ -22,13 +22,16 @@ class StepLength {
   void restart() { merits_.clear(); }
 
   /// t for merit(t), of value `merit0` and slope `slope0` < 0 at 0; nothing when no t was
-  /// acceptable. One call a step: `merit0` enters the memory.
+  /// acceptable. Where it finds one, `merit0` enters the memory.
   std::optional<double> find(const std::function<double(double)>& merit, double merit0,
                              double slope0);
 
  private:
+  std::optional<double> non_monotone(const std::function<double(double)>& merit, double merit0,
+                                     double slope0);
+
   LineSearch kind_;
-  std::deque<double> merits_;
+  std::deque<double> merits_;  // kNonMonotone: of earlier iterates
 };
 
 }  // namespace conebench::solvers

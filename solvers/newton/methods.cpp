@@ -53,9 +53,8 @@ NewtonSettings common_settings(Function function, const Values& values) {
 Solver make(const Method& method, const Values& values, const NewtonSettings& settings) {
   auto refuses = [needs_primal = settings.form == Form::kFull](
                      const Problem& problem) -> std::optional<std::string> {
-    if (problem.cone_count() > 0 && !(problem.mobility().minCoeff() > 0.0)) return "W is zero";
     if (needs_primal && !problem.is_primal()) return "form=full needs M and H";
-    return std::nullopt;
+    return refuse_zero_delassus(problem);
   };
   auto iteration = [settings](const Problem& problem) { return make_newton(problem, settings); };
   return make_iterative_solver(method, values, refuses, iteration);

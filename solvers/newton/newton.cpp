@@ -63,14 +63,13 @@ class Newton final : public Iteration {
   void start(const Eigen::VectorXd& r) override {
     alpha_ = first_alpha_;
     step_length_.restart();
-    if (sweeps_) {
-      sweeps_->start(r);
-      for (std::int64_t sweep = 0; sweep < warmup_; ++sweep) sweeps_->advance();
-    }
-    move_to(sweeps_ ? sweeps_->r() : r);
+    warming_ = warmup_;
+    if (sweeps_) sweeps_->start(r);
+    move_to(r);
   }
 
   State advance() override {
+    if (warming_ > 0) return warm_up();
     if (!find_direction()) return refuse();
     auto merit_at = [&](double t) {
       evaluate(p_ + t * dp_, u_ + t * du_, trial_);
@@ -134,6 +133,13 @@ class Newton final : public Iteration {
     return slope_ < 0.0;  // false for a NaN too
   }
 
+  State warm_up() {
+    const State state = sweeps_->advance();
+    warming_ = state == State::kRunning ? warming_ - 1 : 0;
+    move_to(sweeps_->r());
+    return State::kRunning;
+  }
+
   State refuse() {
     if (alpha_ >= kLargestAlpha) return State::kStalled;
     alpha_ = std::clamp(kGrowth * alpha_, 1e-12, kLargestAlpha);
@@ -155,7 +161,7 @@ class Newton final : public Iteration {
   GeneralSystem system_;
   BlockDiagonal A_, B_, regularised_;  // the last: A + alpha B lambda
   StepLength step_length_;
-  std::int64_t warmup_;
+  std::int64_t warmup_, warming_ = 0;  // sweeps of Gauss-Seidel; those still to come
   std::unique_ptr<Iteration> sweeps_;  // null without warm-up
   double alpha_ = 0.0, work_s_ = 0.0;
   Eigen::VectorXd r_, p_, u_, phi_;  // at the iterate; p = lambda r

@@ -58,7 +58,10 @@ TEST(Certificate, WallsThatMoveAlikeAreUndecided) {
   const Problem problem = between_walls(1.0, -1.0, Cone::coulomb(3, 0.5));
   const Certificate found = certify(problem, kTimeLimit);
   EXPECT_EQ(found.verdict, Existence::kUnknown) << found.text;
-  EXPECT_FALSE(prove_infeasible(problem, kTimeLimit));
+  InfeasibilitySearch search(problem);
+  Iteration::State state = search.advance();
+  while (state == Iteration::State::kRunning) state = search.advance();
+  EXPECT_NE(state, Iteration::State::kInfeasible);
 }
 
 TEST(Certificate, NoForceNoClosingIsSolvedByNothing) {
@@ -112,7 +115,7 @@ TEST(Certificate, NeverCallsASolvableProblemInfeasible) {
   }
 }
 
-TEST(Certificate, AclmEndsWithTheProof) {
+TEST(Certificate, MethodsEndWithTheProof) {
   for (const double theta_share : {1.0, 0.0}) {
     for (const bool reduced : {false, true}) {
       const Problem problem = problems::make_backwards({.family = Family::kInfeasible,
@@ -120,12 +123,43 @@ TEST(Certificate, AclmEndsWithTheProof) {
                                                         .reduced = reduced,
                                                         .seed = 3})
                                   .problem;
-      const Result result =
-          make_solver("aclm").solve(problem, {.stop = {.time_limit_s = kTimeLimit}});
-      EXPECT_EQ(result.status, Status::kInfeasible) << to_string(result.status);
-      EXPECT_TRUE(proves_infeasible(problem, result.certificate)) << problem.name();
+      for (const char* name : {"aclm", "aclm-ipm", "ipm", "auto"}) {
+        const Result result =
+            make_solver(name).solve(problem, {.stop = {.time_limit_s = kTimeLimit}});
+        EXPECT_EQ(result.status, Status::kInfeasible) << name << " " << to_string(result.status);
+        EXPECT_TRUE(proves_infeasible(problem, result.certificate)) << name << problem.name();
+      }
     }
   }
+}
+
+// The solution v = (1, 2 / delta) is fast: existence is what is said, and what is said against it
+// is no more than that it is fast. The data's own velocity is (1 / W_11 + 1 / W_22)^(1/2).
+TEST(Certificate, FastSolutionsExist) {
+  for (const double delta : {1e-2, 1e-6}) {
+    Eigen::Matrix2d H;
+    H << 1.0, 0.0, -1.0, delta;
+    const Problem problem(PrimalData{sparse(Eigen::Matrix2d::Identity()), sparse(H),
+                                     Eigen::Vector2d::Zero(), Eigen::Vector2d(-1.0, -1.0)},
+                          {Cone::coulomb(1, 0.0), Cone::coulomb(1, 0.0)}, {});
+    const Certificate found = certify(problem, kTimeLimit);
+    if (delta == 1e-2) {
+      EXPECT_EQ(found.verdict, Existence::kExists);
+    }
+    const double margin = infeasibility_margin(problem, Eigen::Vector2d(1.0, 1.0));
+    EXPECT_NEAR(margin, std::hypot(1.0, 2.0 / delta) / std::sqrt(2.0), 0.1 * margin);
+    EXPECT_LE(margin, std::hypot(1.0, 2.0 / delta) / std::sqrt(2.0) * (1.0 + delta));
+  }
+}
+
+// In the reduced form with W far from symmetric no velocity stands behind W r + q.
+TEST(Certificate, NothingIsProvedOfAnAsymmetricMatrix) {
+  Eigen::Matrix2d W;
+  W << 0.0, -0.01, 0.01, 1.0;
+  const Problem problem(problems::ReducedData{sparse(W), Eigen::Vector2d(-1.0, 0.0)},
+                        {Cone::coulomb(1, 0.0), Cone::coulomb(1, 0.0)}, {});
+  EXPECT_LT(interior_margin(problem, Eigen::Vector2d(3e4, -200.0)), 0.0);
+  EXPECT_EQ(infeasibility_margin(problem, Eigen::Vector2d(1.0, 0.0)), 0.0);
 }
 
 }  // namespace

@@ -240,6 +240,7 @@ TEST(Newton, WarmUpStartsFromGaussSeidelSweeps) {
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.rows());
   const auto newton = make_newton(problem, {.warmup = 3});
   newton->start(zero);
+  for (int sweep = 0; sweep < 3; ++sweep) newton->advance();
   const auto sweeps = make_gauss_seidel(problem);
   sweeps->start(zero);
   for (int sweep = 0; sweep < 3; ++sweep) sweeps->advance();
