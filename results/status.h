@@ -14,13 +14,14 @@ enum class Status {
   kTimeLimit,       ///< the solver used up its time and stopped by itself
   kStalled,         ///< the iterate stopped moving above the tolerance
   kDiverged,        ///< the solver met a NaN or an infinity
-  kInfeasible,      ///< the solver says that there is no solution
+  kInfeasible,      ///< proved to have no solution (a model's: its own word)
   kUnsupported,     ///< not a problem for this solver
   kCrashed,         ///< the worker died, or the solver threw; `error` says how
   kKilledTime,      ///< the worker was stopped at the hard limit
   kKilledMemory,    ///< the worker ran out of its memory
   kNotFinite,       ///< the answer, or its residual, holds a NaN or an infinity
-  kRefuted,         ///< the solver claimed success and the verified eta is above the tolerance
+  kRefuted,         ///< the solver claimed success and the verified eta is above the tolerance, or
+                    ///< that there is no solution, without a proof
   kBadOutput,       ///< the answer has the wrong length
   kBadAbi,          ///< a plugin that speaks another version
 };

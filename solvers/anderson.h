@@ -8,8 +8,8 @@ namespace conebench::solvers {
 
 /// Anderson acceleration of a fixed point x = g(x): from the last `depth` pairs it takes the
 /// combination of g's that would have the least residual if g were affine.
-/// Cost 2 n depth^2 flops a step. Source: Walker & Ni, SIAM J. Numer. Anal. 49(4) (2011) (not
-/// checked).
+/// Cost    2 n depth^2 flops a step.
+/// Source  Walker & Ni, SIAM J. Numer. Anal. 49(4) (2011) (not checked).
 class Anderson {
  public:
   explicit Anderson(int depth) : depth_(static_cast<std::size_t>(depth)) {}

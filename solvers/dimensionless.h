@@ -4,11 +4,10 @@
 
 namespace conebench::solvers {
 
-/// A problem without units, for libraries with absolute tolerances. With s = U / (100 sqrt(max
-/// lambda))
+/// A problem without units, for libraries with absolute tolerances. With
+/// s = U / (100 sqrt(max lambda)),
 ///
-///   r_i = s / sqrt(lambda_i) rbar_i,   u_i = s sqrt(lambda_i) ubar_i,   v_k = s / sqrt(M_kk)
-///   vbar_k
+///   r_i = s / sqrt(lambda_i) rbar_i,  u_i = s sqrt(lambda_i) ubar_i,  v_k = s / sqrt(M_kk) vbar_k
 ///
 /// keep W symmetric (its diagonal blocks get norm 1) and cones as they are, and bound eta by the
 /// scaled residuals: eta_i = sqrt(lambda_i / max lambda) |zbar_i| / 100. U counts as 100 because a

@@ -21,11 +21,11 @@ struct GaussSeidelSettings {
 ///
 /// A sweep does, for each cone i in order, with u_i the rate at the current r,
 ///
-///   q_i = u_i - B_i r_i,   r_i <- (1 - omega) r_i + omega local(B_i, q_i),   [projected if
-///   omega != 1]
+///   q_i = u_i - B_i r_i,   r_i <- (1 - omega) r_i + omega local(B_i, q_i),
 ///
-/// where B_i = sym(W_ii), plus regularization lambda_i I where its smallest eigenvalue is below
-/// regularization lambda_i: with the same B_i in q_i, fixed points stay exact solutions.
+/// projected on K if omega != 1, where B_i = sym(W_ii), plus regularization lambda_i I where its
+/// smallest eigenvalue is below regularization lambda_i: with the same B_i in q_i, fixed points
+/// stay exact solutions.
 ///
 /// Local   exact: the one-cone problem solved to rounding (solvers/local/exact.h). projection: one
 ///         projected step, r_i <- P_K(r_i - u_hat_i / lambda_i). newton-ac, newton-fb: semismooth

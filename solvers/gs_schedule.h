@@ -10,10 +10,11 @@ namespace conebench::solvers {
 /// Which cones each sweep of Gauss-Seidel visits.
 ///
 /// Between two full sweeps come up to `partial_sweeps` partial ones, which visit only what still
-/// moves: of the latest changes of all cones, as rates lambda_i |dr_i|, those above kShare of the
-/// largest. Without islands that is decided cone by cone; with islands, by the largest change in
-/// each connected component, whose cones are then visited one component after another. No tolerance
-/// enters: what is skipped waits until the rest has caught up, or for the next full sweep.
+/// moves: of the latest changes of all cones, as rates lambda_i |dr_i|, those above kRestingShare
+/// (islands: kIslandShare) of the largest. Without islands that is decided cone by cone; with
+/// islands, by the largest change in each connected component, whose cones are then visited one
+/// component after another. No tolerance enters: what is skipped waits until the rest has caught
+/// up, or for the next full sweep.
 class SweepSchedule {
  public:
   static constexpr double kRestingShare = 1e-3;  ///< of cones

@@ -14,7 +14,7 @@ namespace conebench::solvers {
 /// exactly if some p >= 0, s >= |u_t| exist. The two terms p r_n and mu r_n s + r_t.u_t of the gap
 /// are >= 0 each: r solves the problem exactly where the minimum is 0. Both cones are posed as in
 /// solvers/cone_program.h, with eps 1e-14 of U, and scaled by solvers/dimensionless.h; derivatives
-/// are exact, the Hessian has at most 2 entries a row. Ipopt runs to ever smaller tolerances, each
+/// are exact, the Hessian has a few entries a row. Ipopt runs to ever smaller tolerances, each
 /// run started from the last; one that fails is started anew, twice, from where it ended. The gap
 /// and eps are noted. One iteration is one of Ipopt's.
 ///

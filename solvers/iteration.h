@@ -19,7 +19,8 @@ class Iteration {
 
   virtual ~Iteration() = default;
 
-  /// Starts anew from `r` (rows() entries, finite). Factorisations and symbolic analyses are kept.
+  /// Starts anew from `r` (rows() entries, finite). What was factorised and analysed for
+  /// good is kept.
   virtual void start(const Eigen::VectorXd& r) = 0;
   /// One iteration of the method's outermost natural loop.
   virtual State advance() = 0;

@@ -11,9 +11,9 @@ namespace conebench::solvers {
 /// both in the Lorentz cone L. N is the symmetric matrix with N rho = N^-1 xi = lambda. d = 1 and
 /// mu = 0 are the half line (r_t = 0, x_t free): only component 0 takes part.
 ///
-/// Scaled directions: dr~ = N drho, dx~ = N^-1 dxi. Jordan product a o b = (a.b, a_0 b_t + b_0
-/// a_t). Source  Vandenberghe, "The CVXOPT linear and quadratic cone program solvers" (2010),
-/// section 4
+/// Scaled directions: dr~ = N drho, dx~ = N^-1 dxi.
+/// Jordan product: a o b = (a.b, a_0 b_t + b_0 a_t).
+/// Source  Vandenberghe, "The CVXOPT linear and quadratic cone program solvers" (2010), section 4
 ///         (not checked); Alizadeh & Goldfarb, Math. Program. 95 (2003) (not checked).
 class NtScaling {
  public:

@@ -15,7 +15,7 @@ namespace conebench::solvers {
 /// whose derivative along dr is (r - P).W dr. A Newton step solves (I + E W) dr = P - r with
 /// E_i = sigma_i dP_K, symmetric positive semidefinite: one Cholesky (linear/normal_system.h). The
 /// step length comes from the derivative of phi alone, which does not cancel near the solution.
-/// At K's boundary dP_K is the smooth side's; at z in int K it is I, in the polar cone 0.
+/// dP_K is I in K and on its boundary, 0 in the polar cone and on its boundary.
 ///
 /// Once a proximal step is solved well enough, c <- P. alpha falls tenfold, 1e-3 to 1e-8, while
 /// steps are easy, and grows where a factorisation fails. Convergence to the convex problem's

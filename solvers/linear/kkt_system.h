@@ -5,9 +5,9 @@
 namespace conebench::solvers {
 
 /// Solves (I + R W R^T) y = z for block diagonal R, W = H M^-1 H^T, through the quasidefinite
-/// matrix [M, H^T R^T; R H, -I], which has an LDL^T factor in any order. Sparser than M + H^T R^T R
-/// H where cones touch many dofs. Primal form only. Source  Vanderbei, SIAM J. Optim. 5(1) (1995)
-/// 100-113 (not checked).
+/// matrix [M, H^T R^T; R H, -I], which has an LDL^T factor in any order. Sparser than
+/// M + H^T R^T R H where cones touch many dofs. Primal form only.
+/// Source  Vanderbei, SIAM J. Optim. 5(1) (1995) 100-113 (not checked).
 class KktSystem {
  public:
   explicit KktSystem(const problems::Problem& problem);

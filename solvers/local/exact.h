@@ -19,8 +19,8 @@ enum class LocalCase {
 /// Derivation. Open if q_n >= (mu - theta)|q_t|. Otherwise eliminate r_n through row n:
 /// with w = W_tn / W_nn, S = W_tt - w w^T W_nn and b = q_t - w q_n, the tangential row reads
 /// u_t = S r_t + b + w u_n. Stick (u = 0): r_t = -S^-1 b. Slide: u_t = -a r_t with a > 0 and
-/// |r_t| = mu r_n, where u_n = (mu - theta)|u_t| = (mu - theta) a |r_t|. For theta = mu, u_n = 0
-/// and
+/// |r_t| = mu r_n, where u_n = (mu - theta)|u_t| = (mu - theta) a |r_t|. For theta = mu this
+/// is u_n = 0, and
 ///
 ///   r_t(a) = -(S + a I)^-1 b,   r_n(a) = -q_n / W_nn - w . r_t(a),   |r_t(a)| = mu r_n(a),
 ///

@@ -14,11 +14,11 @@ struct NewtonPoint {
 
   explicit NewtonPoint(Eigen::Index dim) : F(dim), jacobian(dim, dim) {}
 
-  double error() const { return F.norm() / scale; }
+  bool within(double share) const { return F.norm() <= share * scale; }
 
   Vector F;
   Matrix jacobian;     ///< an element of the generalised Jacobian
-  double scale = 1.0;  ///< the size that |F| is compared with, > 0
+  double scale = 1.0;  ///< the size that |F| is compared with
 };
 
 /// Semismooth Newton from r with the merit |F|: each step is halved until the merit falls.
@@ -30,7 +30,7 @@ bool damped_newton(const Evaluate& evaluate, Eigen::Matrix<double, D, 1>& r) {
   constexpr double kGoal = 1e-15, kAccepted = 1e-11, kSufficientDecrease = 1e-4;
   NewtonPoint<D> here(r.size()), there(r.size());
   evaluate(r, here);
-  for (int step = 0; step < kSteps && here.error() > kGoal; ++step) {
+  for (int step = 0; step < kSteps && !here.within(kGoal); ++step) {
     const Eigen::Matrix<double, D, 1> direction = here.jacobian.partialPivLu().solve(here.F);
     if (!direction.allFinite()) break;
     Eigen::Matrix<double, D, 1> next(r.size());
@@ -44,7 +44,7 @@ bool damped_newton(const Evaluate& evaluate, Eigen::Matrix<double, D, 1>& r) {
     r = next;
     std::swap(here, there);
   }
-  return here.error() <= kAccepted;
+  return here.within(kAccepted);
 }
 
 /// What the local Newtons share: one cone of d >= 2, u = W r + q. The frictionless answer has a

@@ -9,7 +9,7 @@ namespace conebench::solvers {
 ///
 ///   F_n = r_n - [r_n - rho_n g]_+,   F_t = r_t - P_B(r_t - rho_t u_t),
 ///
-/// B the ball of radius mu [r_n - rho_n g]_+, rho_n = 1 / W_nn, rho_t = 1 / |W_tt|. For theta = mu
+/// B the ball of radius mu [r_n - rho_n g]_+, rho_n = 1 / W_nn, rho_t = 1 / tr W_tt. For theta = mu
 /// this is the equation of Alart and Curnier; for theta < mu it has the same solutions as the law,
 /// since sliding then means g = 0.
 /// Generalised Jacobian at the kinks: of [.]_+ the zero, of P_B the identity, of |u_t| the zero.

@@ -29,7 +29,8 @@ enum class LocalOutcome {
 /// every kind but the projection is the exact one. kQuartic takes d = 1 and 3 only.
 ///
 /// B = sym(W_ii), plus regularization lambda I where its smallest eigenvalue is below
-/// regularization lambda. Memory  d = 3: about 200 bytes. D as in ExactLocal.
+/// regularization lambda. D as in ExactLocal.
+/// Memory  d = 3: about 200 bytes.
 template <int D>
 class OneCone {
  public:

@@ -17,8 +17,7 @@ namespace conebench::solvers {
 /// Newton on mu P - sqrt(N), and the one of least mismatch taken.
 ///
 /// Cost    one quartic a slide. Closed-form roots lose digits as W's condition grows, and a
-/// singular
-///         W is beyond it: some slides of a condition of 1e8 or more go unfound.
+///         singular W is beyond it: some slides of a condition of 1e8 or more go unfound.
 /// Source  Bonnefon, Daviet, "Quartic formulation of Coulomb 3D frictional contact", INRIA RT-0400
 ///         (2011): the idea (not checked); the quartic above is our derivation.
 class QuarticLocal {

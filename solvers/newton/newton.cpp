@@ -176,19 +176,4 @@ std::unique_ptr<Iteration> make_newton(const Problem& problem, const NewtonSetti
   return std::make_unique<Newton>(problem, settings);
 }
 
-Eigen::VectorXd best_of_steps(Iteration& iteration, const Eigen::VectorXd& r, int steps) {
-  iteration.start(r);
-  Eigen::VectorXd best = r;
-  double least = iteration.own_eta();
-  for (int step = 0; step < steps; ++step) {
-    if (iteration.advance() != Iteration::State::kRunning) break;
-    const double eta = iteration.own_eta();
-    if (eta < least) {
-      least = eta;
-      best = iteration.r();
-    }
-  }
-  return best;
-}
-
 }  // namespace conebench::solvers

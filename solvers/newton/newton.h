@@ -14,7 +14,7 @@ struct NewtonSettings {
   GeneralSystem::Form form = GeneralSystem::Form::kAuto;
   double rho = 1.0;              ///< of Alart-Curnier, in units of 1 / lambda_i [-], > 0
   double regularisation = 1e-6;  ///< alpha of the first step [-], >= 0
-  std::int64_t warmup = 0;       ///< sweeps of Gauss-Seidel before the first step
+  std::int64_t warmup = 0;       ///< sweeps of Gauss-Seidel first, each an iteration
 };
 
 /// Semismooth Newton on Phi(r, u(r)) = 0, one function of solvers/newton/cone_function.h a cone:
@@ -27,21 +27,16 @@ struct NewtonSettings {
 /// centre r, u(x) + alpha lambda (x - r) in the place of u(x): regular where W is singular, and
 /// with the same solutions as fixed points. t is found on the merit |Phi|^2 / 2 of that problem,
 /// for which dr is the Newton direction, along which u is linear: one product with W.
-/// alpha falls when the whole step is taken, faster when |Phi|^2 itself falls, rises when t is
+/// alpha falls when t >= 1/2, faster when |Phi|^2 itself falls, grows (from 0 it does not) when t is
 /// short, and rises with r kept when the matrix is singular or no t is acceptable.
 ///
 /// Cost    an advance() is one sparse LU factorisation and two products with W.
 /// Stalls  when no alpha up to 100 gives an acceptable step.
 /// No convergence proof from afar: W may be singular and the problem is not convex.
 /// Source  Acary, Bremond, Huber, RR-9118 (2017), NSN-AC, and PPA-NSN for the proximal term, which
-/// there is solved to a tolerance before the centre moves (not checked).
+///         there is solved to a tolerance before the centre moves (not checked).
 std::unique_ptr<Iteration> make_newton(const problems::Problem& problem,
                                        const NewtonSettings& settings);
-
-/// Starts `iteration` at r, takes up to `steps` steps, and gives the iterate of least own_eta(), r
-/// included. With a Newton iteration of LineSearch::kNone and regularisation 0: a polish by plain
-/// Newton steps.
-Eigen::VectorXd best_of_steps(Iteration& iteration, const Eigen::VectorXd& r, int steps);
 
 /// newton-ac and newton-fb.
 Method alart_curnier_newton();

@@ -213,6 +213,22 @@ TEST(Newton, OwnEtaIsEta) {
 }
 
 // Full rank, near a solution: eta falls at least tenfold a step, and at last to rounding.
+// The iterate of least own_eta() among r and the next `steps`.
+Eigen::VectorXd best_of_steps(Iteration& iteration, const Eigen::VectorXd& r, int steps) {
+  iteration.start(r);
+  Eigen::VectorXd best = r;
+  double least = iteration.own_eta();
+  for (int step = 0; step < steps; ++step) {
+    if (iteration.advance() != Iteration::State::kRunning) break;
+    const double eta = iteration.own_eta();
+    if (eta < least) {
+      least = eta;
+      best = iteration.r();
+    }
+  }
+  return best;
+}
+
 TEST(Newton, PlainStepsPolishToRounding) {
   const auto known =
       problems::make_backwards({.cones = 20, .dims = {3, 2}, .mu_high = 0.5, .seed = 12});
