@@ -27,8 +27,8 @@ Measure measure(Eigen::VectorXd per_cone) {
   return m;
 }
 
-// r - P_K(r - a) with a = u_hat / lambda. Inside K it is a itself, which r - (r - a) would lose where
-// r is large.
+// r - P_K(r - a) with a = u_hat / lambda. Inside K it is a itself, which r - (r - a) would lose
+// where r is large.
 template <class Vector>
 Vector natural_map(const Cone& cone, double lambda, const Vector& r, const Vector& u_hat) {
   const Vector step = u_hat / lambda;
