@@ -27,8 +27,8 @@ struct NewtonSettings {
 /// centre r, u(x) + alpha lambda (x - r) in the place of u(x): regular where W is singular, and
 /// with the same solutions as fixed points. t is found on the merit |Phi|^2 / 2 of that problem,
 /// for which dr is the Newton direction, along which u is linear: one product with W.
-/// alpha falls when t >= 1/2, faster when |Phi|^2 itself falls, grows (from 0 it does not) when t is
-/// short, and rises with r kept when the matrix is singular or no t is acceptable.
+/// alpha falls when t >= 1/2, faster when |Phi|^2 itself falls, grows (from 0 it does not) when t
+/// is short, and rises with r kept when the matrix is singular or no t is acceptable.
 ///
 /// Cost    an advance() is one sparse LU factorisation and two products with W.
 /// Stalls  when no alpha up to 100 gives an acceptable step.

@@ -167,7 +167,8 @@ TEST_F(CommandLineTest, StatisticsProveWhetherThereIsASolution) {
     EXPECT_GT(found["condition"], 1.0) << found;
   }
   const std::string table = conebench("problem stats problems --certificate").out;
-  for (const char* text : {"null space", "no solution has velocities below", "a solution exists", "rate_scale"}) {
+  for (const char* text :
+       {"null space", "no solution has velocities below", "a solution exists", "rate_scale"}) {
     EXPECT_THAT(table, HasSubstr(text));
   }
 }
