@@ -2,12 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-#include <optional>
-#include <system_error>
-
-#include "dem/text_file.h"
-#include "problems/error.h"
+#include "problems/engine/text_file.h"
 #include "problems/problem_file.h"
 #include "problems/residual.h"
 
@@ -15,14 +10,6 @@ namespace conebench::dem {
 namespace {
 
 using problems::Geometry;
-
-// A whole number that fills the text, or nothing.
-std::optional<std::int64_t> to_integer(std::string_view text) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
 
 Geometry geometry_of(const StepView& view) {
   const auto cones = static_cast<Eigen::Index>(view.entered.size());
@@ -67,26 +54,9 @@ problems::Problem make_problem(const Scene& scene, std::int64_t step, Assembly& 
                            std::move(metadata));
 }
 
-StepSelection parse_selection(std::string_view text) {
-  StepSelection selection;
-  if (text == "all") return selection;
-  if (text.starts_with("every:")) {
-    const auto stride = to_integer(text.substr(6));
-    if (stride && *stride >= 1) return {0, selection.last, *stride};
-  }
-  if (const auto dots = text.find(".."); dots != std::string_view::npos) {
-    const auto first = to_integer(text.substr(0, dots));
-    const auto last = to_integer(text.substr(dots + 2));
-    if (first && last && *first >= 0 && *first <= *last) return {*first, *last, 1};
-  }
-  throw problems::InputError("policy", fmt::format("found \"{}\", expected all, every:N (N >= 1) "
-                                                   "or N..M (0 <= N <= M)",
-                                                   text));
-}
-
-Exporter::Exporter(std::filesystem::path folder, StepSelection selection)
+Exporter::Exporter(std::filesystem::path folder, engine::StepSelection selection)
     : folder_(std::move(folder)), selection_(selection) {
-  make_folder(folder_);
+  engine::make_folder(folder_);
 }
 
 void Exporter::operator()(const StepView& view) {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "problems/engine/scene_file.h"
 
 namespace conebench::dem {
 
@@ -77,23 +78,10 @@ struct Bed {
   std::string material;
 };
 
-struct SolverChoice {
-  std::string name = "auto";
-  double tol = 1e-5;         ///< on eta
-  double time_limit_s = 10;  ///< of one step; a step that it ends depends on the machine
-  std::int64_t max_iterations = 1'000'000;  ///< of one step; ends it alike everywhere
-};
-
 /// A simulation as it is written in a scene file (TOML, SI units in the key names).
-struct Scene {
-  std::string name;
-  Eigen::Vector3d gravity_m_s2{0.0, 0.0, -9.81};
-  double step_s = 0.0;
-  double duration_s = 0.0;
-  std::int64_t seed = 1;  ///< of the generators
-  double skin_m = 0.0;    ///< contacts with a smaller gap are looked at, > 0
-  bool resolve = false;   ///< push overlapping spheres apart instead of refusing them
-  SolverChoice solver;
+struct Scene : engine::SceneHeader {
+  double skin_m = 0.0;   ///< contacts with a smaller gap are looked at, > 0
+  bool resolve = false;  ///< push overlapping spheres apart instead of refusing them
   std::vector<Material> materials;
   std::optional<PairLaw> default_pair;  ///< for materials that no pair names
   std::vector<Pair> pairs;
@@ -102,9 +90,6 @@ struct Scene {
   std::vector<Column> columns;
   std::vector<Stack> stacks;
   std::vector<Bed> beds;
-
-  /// The steps that fill duration_s.
-  std::int64_t step_count() const;
 };
 
 /// Index of a material. Throws InputError naming it and the known ones.
@@ -119,11 +104,11 @@ std::optional<PairLaw> law_between(const Scene& scene, std::string_view first,
 /// A scene that parses can be simulated: materials, laws and overlaps are checked too.
 Scene parse_scene(std::string_view text, std::string_view subject);
 
-/// A built-in scene by its name, or a scene file by its path (anything with a '/' or ".toml").
+/// A built-in scene by its name, or a scene file by its path.
 Scene load_scene(const std::string& name_or_path);
 
-/// In alphabetical order.
-std::vector<std::string> builtin_scene_names();
+/// The files of dem/scenes, in alphabetical order.
+std::span<const engine::BuiltinScene> builtin_scenes();
 
 /// The full scene with every default, as a scene file; parse_scene() reads the same scene back.
 std::string to_toml(const Scene& scene);

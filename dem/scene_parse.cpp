@@ -5,27 +5,16 @@
 
 #include "dem/placement.h"
 #include "dem/scene.h"
-#include "dem/toml_reader.h"
 #include "problems/error.h"
 #include "problems/suggest.h"
 
 namespace conebench::dem {
 namespace {
 
+using engine::Range;
+using engine::TomlReader;
 using problems::InputError;
 using problems::require;
-
-constexpr std::int64_t kSchema = 1;
-
-SolverChoice read_solver(TomlReader in) {
-  SolverChoice choice;
-  choice.name = in.text("name", choice.name);
-  choice.tol = in.number("tol", Range::kPositive, choice.tol);
-  choice.time_limit_s = in.number("time_limit_s", Range::kPositive, choice.time_limit_s);
-  choice.max_iterations = in.integer("max_iterations", 1, choice.max_iterations);
-  in.finish();
-  return choice;
-}
 
 Material read_material(TomlReader in) {
   Material material{in.text("name"), in.number("density_kg_m3", Range::kPositive)};
@@ -142,25 +131,6 @@ std::vector<T> read_all(TomlReader& in, std::string_view key, T (*read)(TomlRead
   return items;
 }
 
-void read_header(TomlReader& in, Scene& scene) {
-  if (const auto schema = in.integer("schema", 1); schema != kSchema) {
-    in.fail("schema", fmt::format("found {}, expected {}", schema, kSchema));
-  }
-  if (const auto engine = in.text("engine"); engine != "dem") {
-    in.fail("engine", fmt::format("found \"{}\", expected \"dem\"", engine));
-  }
-  scene.name = in.text("name");
-  if (scene.name.empty() || scene.name.find('/') != std::string::npos) {
-    in.fail("name", fmt::format("found \"{}\", expected a name without '/'", scene.name));
-  }
-  scene.gravity_m_s2 = in.vector("gravity_m_s2", scene.gravity_m_s2);
-  scene.step_s = in.number("step_s", Range::kPositive);
-  scene.duration_s = in.number("duration_s", Range::kPositive);
-  scene.seed = in.integer("seed", 0, scene.seed);
-  scene.skin_m = in.number("skin_m", Range::kPositive);
-  scene.resolve = in.boolean("resolve", scene.resolve);
-}
-
 void check_materials(const Scene& scene, std::string_view subject) {
   std::set<std::string> names;
   for (const Material& material : scene.materials) {
@@ -205,17 +175,12 @@ void check_laws(const Scene& scene, std::string_view subject) {
 }  // namespace
 
 Scene parse_scene(std::string_view text, std::string_view subject) {
-  toml::table table;
-  try {
-    table = toml::parse(text, subject);
-  } catch (const toml::parse_error& error) {
-    throw InputError(subject, fmt::format("line {}: not TOML: {}", error.source().begin.line,
-                                          error.description()));
-  }
+  const toml::table table = engine::parse_toml({std::string(subject), std::string(text)});
   TomlReader in(table, "", std::string(subject));
   Scene scene;
-  read_header(in, scene);
-  if (auto solver = in.table("solver")) scene.solver = read_solver(std::move(*solver));
+  static_cast<engine::SceneHeader&>(scene) = engine::read_header(in, "dem");
+  scene.skin_m = in.number("skin_m", Range::kPositive);
+  scene.resolve = in.boolean("resolve", scene.resolve);
   if (auto law = in.table("default_pair")) scene.default_pair = read_default_pair(std::move(*law));
   scene.materials = read_all(in, "materials", read_material);
   scene.pairs = read_all(in, "pairs", read_pair);

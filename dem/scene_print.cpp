@@ -8,19 +8,8 @@
 namespace conebench::dem {
 namespace {
 
-// Shortest digits that read back as the same double.
-std::string show(const Eigen::Vector3d& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }
-
-// A TOML basic string.
-std::string quote(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    const auto code = static_cast<unsigned char>(c);
-    out += code < 0x20 ? fmt::format("\\u{:04x}", code) : std::string(1, c);
-  }
-  return out + '"';
-}
+using engine::quote;
+using engine::show;
 
 std::string show(const PairLaw& law) {
   return fmt::format(
@@ -81,14 +70,8 @@ void append(std::string& out, const std::vector<Item>& items) {
 }  // namespace
 
 std::string to_toml(const Scene& scene) {
-  std::string out = fmt::format(
-      "schema = 1\nengine = \"dem\"\nname = {}\ngravity_m_s2 = {}\nstep_s = {}\nduration_s = {}\n"
-      "seed = {}\nskin_m = {}\nresolve = {}\n",
-      quote(scene.name), show(scene.gravity_m_s2), scene.step_s, scene.duration_s, scene.seed,
-      scene.skin_m, scene.resolve);
-  out += fmt::format("\n[solver]\nname = {}\ntol = {}\ntime_limit_s = {}\nmax_iterations = {}\n",
-                     quote(scene.solver.name), scene.solver.tol, scene.solver.time_limit_s,
-                     scene.solver.max_iterations);
+  std::string out = engine::print_header(
+      scene, "dem", fmt::format("skin_m = {}\nresolve = {}\n", scene.skin_m, scene.resolve));
   if (scene.default_pair) out += "\n[default_pair]\n" + show(*scene.default_pair);
   append(out, scene.materials);
   append(out, scene.pairs);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
 #include "dem/export.h"
 #include "dem/placement.h"
@@ -29,7 +28,7 @@ void rotate(Eigen::Quaterniond& orientation, const Eigen::Vector3d& angle) {
 
 }  // namespace
 
-Simulation::Simulation(Scene scene, StepSolver solver)
+Simulation::Simulation(Scene scene, engine::StepSolver solver)
     : scene_(std::move(scene)),
       solver_(std::move(solver)),
       spheres_(place_spheres(scene_, scene_.name)),
@@ -57,7 +56,7 @@ void Simulation::step() {
   view.entered = assembly_.entered;
 
   std::optional<problems::Problem> problem, standard;
-  StepAnswer answer;
+  engine::StepAnswer answer;
   double outside_s = 0.0;
   if (assembly_.cones.empty()) {
     ++summary_.free_steps;
@@ -69,7 +68,7 @@ void Simulation::step() {
     const auto solver_start = Clock::now();
     answer = solver_(*standard, assembly_.guess);
     outside_s = seconds_since(solver_start);
-    check_answer(answer, standard->rows());
+    engine::check_answer(answer, standard->rows(), scene_.name, view.step);
     accelerate();
     apply_reactions(*problem, answer.r);
     view.problem = &*problem;
@@ -83,14 +82,6 @@ void Simulation::step() {
   summary_.solve_s += answer.solve_s;
   summary_.engine_s += seconds_since(start) - outside_s;
   for (const Observer& observer : observers_) observer(view);
-}
-
-void Simulation::check_answer(const StepAnswer& answer, Eigen::Index rows) const {
-  if (answer.r.size() == rows && answer.r.allFinite()) return;
-  throw std::runtime_error(scene_.name + ": step " + std::to_string(summary_.steps) +
-                           ": the solver (status " + answer.status + ") returned " +
-                           std::to_string(answer.r.size()) + " numbers, expected " +
-                           std::to_string(rows) + " finite ones");
 }
 
 void Simulation::accelerate() {
@@ -152,7 +143,7 @@ void Simulation::move() {
   }
 }
 
-void Simulation::book_step(const StepAnswer& answer) {
+void Simulation::book_step(const engine::StepAnswer& answer) {
   energy_.kinetic_J = kinetic_energy(spheres_);
   energy_.potential_J = potential_energy(scene_, spheres_);
   ++summary_.steps;

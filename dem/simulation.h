@@ -33,7 +33,7 @@ struct Summary {
 ///         velocity alone, without a midpoint configuration.
 class Simulation {
  public:
-  Simulation(Scene scene, StepSolver solver);
+  Simulation(Scene scene, engine::StepSolver solver);
 
   /// Called after every step, in the order they were added.
   void add_observer(Observer observer) { observers_.push_back(std::move(observer)); }
@@ -51,14 +51,13 @@ class Simulation {
 
  private:
   void accelerate();
-  void check_answer(const StepAnswer& answer, Eigen::Index rows) const;
   void apply_reactions(const problems::Problem& problem, const Eigen::VectorXd& shifted_r);
   void push(const Contact& contact, const Eigen::Vector3d& r);
   void move();
-  void book_step(const StepAnswer& answer);
+  void book_step(const engine::StepAnswer& answer);
 
   Scene scene_;
-  StepSolver solver_;
+  engine::StepSolver solver_;
   Spheres spheres_;
   Spheres before_;
   ContactList contacts_;

@@ -3,26 +3,11 @@
 #include <cstdint>
 #include <functional>
 #include <span>
-#include <string>
 
 #include "dem/contacts.h"
-#include "problems/problem.h"
+#include "problems/engine/step_solver.h"
 
 namespace conebench::dem {
-
-/// What a step solver gives back: r' of the standard problem, the best it knows whatever happened.
-struct StepAnswer {
-  Eigen::VectorXd r;  ///< rows() entries [N s]
-  bool converged = false;
-  std::string status;  ///< in the solver's words, e.g. "time_limit"
-  std::int64_t iterations = 0;
-  double solve_s = 0.0;
-};
-
-/// Solves the cone problem of a step, starting from `guess` (r', rows() entries). The engines know
-/// no solver; the program hands one in.
-using StepSolver =
-    std::function<StepAnswer(const problems::Problem& standard, const Eigen::VectorXd& guess)>;
 
 /// What an observer sees after each step. Valid during the call only.
 struct StepView {
@@ -37,7 +22,7 @@ struct StepView {
   const problems::Problem* problem = nullptr;   ///< as it is, with kappa
   const problems::Problem* standard = nullptr;  ///< problem->shifted()
   const Eigen::VectorXd* guess = nullptr;       ///< r'
-  const StepAnswer* answer = nullptr;
+  const engine::StepAnswer* answer = nullptr;
 };
 
 using Observer = std::function<void(const StepView&)>;

@@ -4,7 +4,7 @@
 
 #include <iterator>
 
-#include "dem/text_file.h"
+#include "problems/engine/text_file.h"
 
 namespace conebench::dem {
 namespace {
@@ -112,13 +112,13 @@ std::string file_name(std::string_view prefix, std::int64_t step) {
 
 VtkWriter::VtkWriter(std::filesystem::path folder, double step_s, std::int64_t stride)
     : folder_(std::move(folder)), step_s_(step_s), stride_(stride) {
-  make_folder(folder_);
+  engine::make_folder(folder_);
 }
 
 void VtkWriter::operator()(const StepView& view) {
   if (view.step % stride_ != 0) return;
-  write_text_file(folder_ / file_name("spheres", view.step), spheres_file(*view.spheres));
-  write_text_file(folder_ / file_name("contacts", view.step), contacts_file(view, step_s_));
+  engine::write_text_file(folder_ / file_name("spheres", view.step), spheres_file(*view.spheres));
+  engine::write_text_file(folder_ / file_name("contacts", view.step), contacts_file(view, step_s_));
   entries_.push_back({view.time_s, view.step});
 }
 
@@ -133,8 +133,8 @@ std::string VtkWriter::collection(std::string_view prefix) const {
 }
 
 void VtkWriter::finish() const {
-  write_text_file(folder_ / "spheres.pvd", collection("spheres"));
-  write_text_file(folder_ / "contacts.pvd", collection("contacts"));
+  engine::write_text_file(folder_ / "spheres.pvd", collection("spheres"));
+  engine::write_text_file(folder_ / "contacts.pvd", collection("contacts"));
 }
 
 }  // namespace conebench::dem

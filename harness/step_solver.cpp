@@ -5,7 +5,7 @@
 
 namespace conebench::harness {
 
-dem::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s,
+engine::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s,
                                  std::int64_t max_iterations) {
   const solvers::Stop stop{
       .tol = tol, .max_iterations = max_iterations, .time_limit_s = time_limit_s};
@@ -16,7 +16,7 @@ dem::StepSolver make_step_solver(const std::string& variant, double tol, double 
       throw problems::InputError(standard.name(), solver.name + " cannot solve it: " + *reason);
     }
     const solvers::Result result = solver.solve(standard, {.stop = stop, .guess = guess});
-    return dem::StepAnswer{result.r, result.status == solvers::Status::kConverged,
+    return engine::StepAnswer{result.r, result.status == solvers::Status::kConverged,
                            std::string(solvers::to_string(result.status)), result.iterations,
                            result.setup_s + result.solve_s};
   };

@@ -23,7 +23,7 @@ int export_steps(const ExportOptions& options) {
   const dem::Scene scene = dem::load_scene(options.scene);
   const std::string policy =
       options.every > 0 ? "every:" + std::to_string(options.every) : options.policy;
-  dem::Exporter exporter(options.folder, dem::parse_selection(policy));
+  dem::Exporter exporter(options.folder, engine::parse_selection(policy));
   const std::string solver = options.solver.empty() ? scene.solver.name : options.solver;
   dem::Simulation simulation(scene,
                              make_step_solver(solver, scene.solver.tol, scene.solver.time_limit_s,

@@ -11,8 +11,8 @@ namespace {
 
 void list(bool json) {
   auto entries = nlohmann::json::array();
-  for (const std::string& name : dem::builtin_scene_names()) {
-    const dem::Scene scene = dem::load_scene(name);
+  for (const auto& [name, text] : dem::builtin_scenes()) {
+    const dem::Scene scene = dem::parse_scene(text, name);
     entries.push_back({{"name", name},
                        {"engine", "dem"},
                        {"steps", scene.step_count()},

@@ -8,7 +8,7 @@
 
 #include "dem/simulation.h"
 #include "dem/svg_frame.h"
-#include "dem/text_file.h"
+#include "problems/engine/text_file.h"
 #include "dem/vtk_writer.h"
 #include "harness/commands/commands.h"
 #include "harness/interrupt.h"
@@ -45,7 +45,7 @@ class Film {
   void write(const dem::Scene& scene, const std::filesystem::path& folder) const {
     const dem::View view = dem::fit_view(scene, frames_);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
-      dem::write_text_file(folder / fmt::format("frame_{:03}.svg", i),
+      engine::write_text_file(folder / fmt::format("frame_{:03}.svg", i),
                            dem::draw_svg(scene, frames_[i], view));
     }
   }
@@ -157,7 +157,7 @@ int simulate(const SimulateOptions& options) {
   const nlohmann::json summary = summarise(simulation, solver);
   if (vtk) {
     vtk->finish();
-    dem::write_text_file(std::filesystem::path(options.folder) / "summary.json",
+    engine::write_text_file(std::filesystem::path(options.folder) / "summary.json",
                          summary.dump(2) + "\n");
     film.write(scene, options.folder);
   }

@@ -56,7 +56,7 @@ dem::Scene falling() {
 
 TEST_F(Files, ExportedProblemsReadBackWithGeometryGuessAndSolution) {
   dem::Simulation simulation(falling(), small_solver());
-  dem::Exporter exporter(folder_, dem::parse_selection("every:10"));
+  dem::Exporter exporter(folder_, engine::parse_selection("every:10"));
   simulation.add_observer(std::ref(exporter));
   simulation.run(60);
   EXPECT_EQ(exporter.written() + exporter.without_contacts(), 6);
@@ -82,13 +82,13 @@ TEST_F(Files, ExportedProblemsReadBackWithGeometryGuessAndSolution) {
 }
 
 TEST_F(Files, SelectionsPickTheirSteps) {
-  EXPECT_TRUE(dem::parse_selection("all").contains(17));
-  const auto range = dem::parse_selection("10..20");
+  EXPECT_TRUE(engine::parse_selection("all").contains(17));
+  const auto range = engine::parse_selection("10..20");
   EXPECT_FALSE(range.contains(9));
   EXPECT_TRUE(range.contains(10) && range.contains(20));
   EXPECT_FALSE(range.contains(21));
   for (const char* wrong : {"every:0", "every:x", "20..10", "-1..3", "none", ""}) {
-    EXPECT_THROW(dem::parse_selection(wrong), problems::InputError) << wrong;
+    EXPECT_THROW(engine::parse_selection(wrong), problems::InputError) << wrong;
   }
 }
 

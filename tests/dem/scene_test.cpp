@@ -73,9 +73,9 @@ TEST(Scene, ReadsWhatIsWrittenAndFillsInDefaults) {
 }
 
 TEST(Scene, PrintedSceneReadsBackTheSame) {
-  for (const std::string& name : dem::builtin_scene_names()) {
-    const std::string text = dem::to_toml(dem::load_scene(name));
-    EXPECT_EQ(dem::to_toml(dem::parse_scene(text, name)), text);
+  for (const engine::BuiltinScene& scene : dem::builtin_scenes()) {
+    const std::string text = dem::to_toml(dem::parse_scene(scene.text, scene.name));
+    EXPECT_EQ(dem::to_toml(dem::parse_scene(text, scene.name)), text);
   }
   std::string odd = changed("name = \"two\"", "name = \"a \\\"b\\\" \\\\ c\"");
   odd += "velocity_m_s = [0.1, 1e-17, 3]\nangular_velocity_rad_s = [0, 0.3333333333333333, 0]\n";
@@ -85,7 +85,8 @@ TEST(Scene, PrintedSceneReadsBackTheSame) {
 }
 
 TEST(Scene, BuiltinsCarryTheirOwnNames) {
-  const auto names = dem::builtin_scene_names();
+  std::vector<std::string> names;
+  for (const engine::BuiltinScene& scene : dem::builtin_scenes()) names.emplace_back(scene.name);
   EXPECT_THAT(names, testing::IsSupersetOf({"sphere-on-slope", "bouncing-sphere", "stack",
                                             "column-dry", "column-cohesive"}));
   for (const std::string& name : names) EXPECT_EQ(dem::load_scene(name).name, name);

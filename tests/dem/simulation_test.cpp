@@ -211,7 +211,7 @@ TEST(Step, NotFiniteAnswerStopsTheRunAndNamesTheStep) {
   add_floor(scene);
   add_body(scene, {0.0, 0.0, 0.02}, 0.02);
   Simulation simulation(scene, [](const auto& standard, const auto&) {
-    dem::StepAnswer answer;
+    engine::StepAnswer answer;
     answer.r.setConstant(standard.rows(), std::nan(""));
     answer.status = "diverged";
     return answer;

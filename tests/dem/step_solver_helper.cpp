@@ -30,11 +30,11 @@ double relax(const Eigen::MatrixXd& W, const Eigen::VectorXd& q, int start,
 
 }  // namespace
 
-dem::StepSolver small_solver(double tol) {
+engine::StepSolver small_solver(double tol) {
   return [tol](const problems::Problem& standard, const Eigen::VectorXd& guess) {
     const Eigen::MatrixXd W(standard.delassus());
     const Eigen::VectorXd& q = standard.q();
-    dem::StepAnswer answer;
+    engine::StepAnswer answer;
     answer.r = guess;
     const double allowed = tol * std::max(q.cwiseAbs().maxCoeff(), 1e-300);
     while (answer.iterations < kMostSweeps && !answer.converged) {

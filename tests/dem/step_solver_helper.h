@@ -8,7 +8,7 @@ namespace conebench::test {
 /// first, then the tangential one projected on the disc of radius mu r_n (no De Saxce shift, no
 /// cone projection, own stopping test). Good for a few contacts.
 /// `tol` is on the largest change of a sweep, as a velocity, relative to max |q|.
-dem::StepSolver small_solver(double tol = 1e-14);
+engine::StepSolver small_solver(double tol = 1e-14);
 
 /// A scene of "grain" bodies (density 2500) with one law and no plane; step 1e-3 s, skin 5e-3 m.
 dem::Scene small_scene(const dem::PairLaw& law);

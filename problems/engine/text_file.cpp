@@ -1,4 +1,4 @@
-#include "dem/text_file.h"
+#include "problems/engine/text_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -7,7 +7,7 @@
 
 #include "problems/error.h"
 
-namespace conebench::dem {
+namespace conebench::engine {
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -24,4 +24,4 @@ void write_text_file(const std::filesystem::path& path, std::string_view text) {
   throw problems::OutputError(path.string(), errno ? std::strerror(errno) : "cannot be written");
 }
 
-}  // namespace conebench::dem
+}  // namespace conebench::engine

@@ -1,4 +1,4 @@
-#include "dem/toml_reader.h"
+#include "problems/engine/toml_reader.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "problems/error.h"
 #include "problems/suggest.h"
 
-namespace conebench::dem {
+namespace conebench::engine {
 namespace {
 
 using problems::InputError;
@@ -198,4 +198,4 @@ void TomlReader::finish() const {
   }
 }
 
-}  // namespace conebench::dem
+}  // namespace conebench::engine

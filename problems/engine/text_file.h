@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string_view>
 
-namespace conebench::dem {
+namespace conebench::engine {
 
 /// Makes a folder and its parents. Throws OutputError.
 void make_folder(const std::filesystem::path& folder);
@@ -11,4 +11,4 @@ void make_folder(const std::filesystem::path& folder);
 /// Writes a text file in one go. Throws OutputError when any of it cannot be written.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
-}  // namespace conebench::dem
+}  // namespace conebench::engine

@@ -8,13 +8,13 @@
 #include <string_view>
 #include <vector>
 
-namespace conebench::dem {
+namespace conebench::engine {
 
 /// What a number may be; said in words in the error.
 enum class Range { kAny, kNotNegative, kPositive, kUnitInterval };
 
 /// One TOML table, read key by key. Every key asked for is remembered, so that finish() can name
-/// those that nobody knows. Internal to the scene parser.
+/// those that nobody knows. Internal to the scene parsers.
 ///
 /// Errors: InputError "<subject>: line 7: materials[0].density_kg_m3: found -3, expected > 0".
 class TomlReader {
@@ -54,4 +54,4 @@ class TomlReader {
   std::vector<std::string> known_;
 };
 
-}  // namespace conebench::dem
+}  // namespace conebench::engine
