@@ -14,42 +14,10 @@
 namespace conebench::dem {
 namespace {
 
-constexpr double kWidth_px = 800.0;
-constexpr double kMargin_px = 24.0;
-constexpr double kCaption_px = 64.0;
-constexpr double kAspect = 1.4;  // of the window, at least
 constexpr int kColours = 32;
-constexpr double kSide_rad = 24.0 * std::numbers::pi / 180.0;
-constexpr double kAbove_rad = 14.0 * std::numbers::pi / 180.0;
-
 using engine::Colour;
-using engine::escaped;
 using engine::hex;
 using engine::viridis;
-
-// World to picture.
-class Camera {
- public:
-  explicit Camera(const View& view) : view_(view) {
-    scale_ = (kWidth_px - 2.0 * kMargin_px) / (view.high[0] - view.low[0]);
-  }
-
-  double scale() const { return scale_; }
-  double height_px() const {
-    return scale_ * (view_.high[1] - view_.low[1]) + 2.0 * kMargin_px + kCaption_px;
-  }
-  double depth(const Eigen::Vector3d& x) const { return view_.axes.row(2).dot(x); }
-
-  Eigen::Vector2d operator()(const Eigen::Vector3d& x) const {
-    const Eigen::Vector2d at = (view_.axes * x).head<2>();
-    return {kMargin_px + scale_ * (at[0] - view_.low[0]),
-            kMargin_px + kCaption_px + scale_ * (view_.high[1] - at[1])};
-  }
-
- private:
-  const View& view_;
-  double scale_;
-};
 
 class Drawing {
  public:
@@ -57,11 +25,7 @@ class Drawing {
       : scene_(scene), frame_(frame), view_(view), camera_(view) {}
 
   std::string draw() {
-    print(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {:.0f} {:.0f}\" "
-        "font-family=\"sans-serif\" font-size=\"20\">\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-        kWidth_px, camera_.height_px());
+    out_ = engine::svg_start(camera_.height_px());
     define_colours();
     for (const Plane& plane : scene_.planes) {
       if (is_floor(plane)) draw_floor(plane);
@@ -92,11 +56,7 @@ class Drawing {
       define_ball(fmt::format("s{}", k), viridis(k / (kColours - 1.0)));
     }
     define_ball("fixed", Colour(200, 206, 210));
-    out_ += "<linearGradient id=\"scale\">\n";
-    for (int k = 0; k <= 8; ++k) {
-      print("<stop offset=\"{}\" stop-color=\"{}\"/>\n", k / 8.0, hex(viridis(k / 8.0)));
-    }
-    out_ += "</linearGradient>\n</defs>\n";
+    out_ += engine::scale_gradient() + "</defs>\n";
   }
 
   bool is_floor(const Plane& plane) const {
@@ -168,42 +128,19 @@ class Drawing {
     const bool held = std::any_of(scene_.planes.begin(), scene_.planes.end(), [&](const auto& p) {
       return std::isfinite(p.until_s) && frame_.time_s < p.until_s;
     });
-    print("<text x=\"{:.0f}\" y=\"36\" font-weight=\"bold\" fill=\"#263238\">{}</text>\n",
-          kMargin_px, escaped(scene_.name));
-    print("<text x=\"{:.0f}\" y=\"62\" fill=\"#455a64\">t = {:.3f} s{}</text>\n", kMargin_px,
-          frame_.time_s, held ? ", held by walls" : "");
-    const double left = kWidth_px - kMargin_px - 220.0;
-    print("<rect x=\"{:.0f}\" y=\"22\" width=\"220\" height=\"14\" fill=\"url(#scale)\"/>\n", left);
-    print(
-        "<g font-size=\"16\" fill=\"#455a64\"><text x=\"{:.0f}\" y=\"56\">0</text>"
-        "<text x=\"{:.0f}\" y=\"56\" text-anchor=\"middle\">speed</text>"
-        "<text x=\"{:.0f}\" y=\"56\" text-anchor=\"end\">{:.2g} m/s</text></g>\n",
-        left, left + 110.0, left + 220.0, view_.fastest_m_s);
+    out_ += engine::caption(
+        {.title = scene_.name,
+         .moment = fmt::format("t = {:.3f} s{}", frame_.time_s, held ? ", held by walls" : ""),
+         .meaning = "speed",
+         .end = fmt::format("{:.2g} m/s", view_.fastest_m_s)});
   }
 
   const Scene& scene_;
   const Frame& frame_;
   const View& view_;
-  Camera camera_;
+  engine::Camera camera_;
   std::string out_;
 };
-
-// Rows right, up, towards the eye.
-Eigen::Matrix3d view_axes(const Eigen::Vector3d& gravity) {
-  const Eigen::Vector3d up =
-      gravity.norm() > 0.0 ? Eigen::Vector3d(-gravity.normalized()) : Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d ahead =
-      std::abs(up.y()) < 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d right = ahead.cross(up).normalized();
-  const Eigen::Vector3d front = right.cross(up).normalized();  // towards the eye, level
-  const Eigen::Vector3d level = std::cos(kSide_rad) * front + std::sin(kSide_rad) * right;
-  const Eigen::Vector3d eye = std::cos(kAbove_rad) * level + std::sin(kAbove_rad) * up;
-  Eigen::Matrix3d axes;
-  axes.row(2) = eye;
-  axes.row(0) = up.cross(eye).normalized();
-  axes.row(1) = eye.cross(Eigen::Vector3d(axes.row(0)));
-  return axes;
-}
 
 }  // namespace
 
@@ -220,7 +157,7 @@ std::string draw_svg(const Scene& scene, const Frame& frame, const View& view) {
 
 View fit_view(const Scene& scene, std::span<const Frame> frames) {
   View view;
-  view.axes = view_axes(scene.gravity_m_s2);
+  view.axes = engine::oblique_axes(scene.gravity_m_s2);
   view.low.setConstant(std::numeric_limits<double>::infinity());
   view.high = -view.low;
   double fastest = 0.0;
@@ -235,9 +172,7 @@ View fit_view(const Scene& scene, std::span<const Frame> frames) {
     }
   }
   if (fastest > 0.0) view.fastest_m_s = fastest;
-  const double missing = kAspect * (view.high[1] - view.low[1]) - (view.high[0] - view.low[0]);
-  view.low[0] -= 0.5 * std::max(missing, 0.0);
-  view.high[0] += 0.5 * std::max(missing, 0.0);
+  view.widen();
   return view;
 }
 

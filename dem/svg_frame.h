@@ -6,6 +6,7 @@
 
 #include "dem/scene.h"
 #include "dem/spheres.h"
+#include "problems/engine/svg.h"
 
 namespace conebench::dem {
 
@@ -21,16 +22,12 @@ struct Frame {
 Frame make_frame(const Spheres& spheres, double time_s);
 
 /// Where the eye is and what the colours mean; one view for all frames of a film.
-struct View {
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: right, up, towards the eye
-  Eigen::Vector3d low = Eigen::Vector3d::Zero();       ///< corner of what is shown, in axes [m]
-  Eigen::Vector3d high = Eigen::Vector3d::Ones();      ///< opposite corner [m]
-  double fastest_m_s = 1.0;                            ///< speed at the end of the colour scale
+struct View : engine::Window {
+  double fastest_m_s = 1.0;  ///< speed at the end of the colour scale
 };
 
-/// A view that holds all frames: along +y, slightly from the side and from above, up against
-/// gravity (z without gravity), parallel projection. The window is at least 1.4 times as wide as
-/// high, so that columns of one height are drawn to one scale unless they spread far.
+/// A view that holds all frames, along engine::oblique_axes(). It is wide, so that columns of one
+/// height are drawn to one scale unless they spread far.
 View fit_view(const Scene& scene, std::span<const Frame> frames);
 
 /// An SVG picture: the spheres as shaded discs, far ones first, coloured by speed (viridis, which

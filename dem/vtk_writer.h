@@ -1,10 +1,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "dem/step.h"
+#include "problems/engine/vtk.h"
 
 namespace conebench::dem {
 
@@ -28,17 +28,10 @@ class VtkWriter {
   void finish() const;
 
  private:
-  struct Entry {
-    double time_s;
-    std::int64_t step;
-  };
-
-  std::string collection(std::string_view prefix) const;
-
   std::filesystem::path folder_;
   double step_s_;
   std::int64_t stride_;
-  std::vector<Entry> entries_;
+  std::vector<engine::VtkStep> steps_;
 };
 
 }  // namespace conebench::dem

@@ -2,35 +2,27 @@
 
 #include <chrono>
 
-#include "dem/export.h"
-#include "dem/simulation.h"
+#include "harness/engine.h"
 #include "harness/small_problems.h"
-#include "harness/step_solver.h"
 #include "problems/problem_file.h"
 #include "results/output.h"
 
 namespace conebench::harness {
 
-std::vector<std::filesystem::path> export_scene(const std::string& scene, int steps, int first,
-                                                int stride, double budget_s,
+std::vector<std::filesystem::path> export_scene(const SceneExport& wanted, double budget_s,
                                                 const std::string& variant,
                                                 const std::filesystem::path& folder) {
-  const dem::Scene loaded = dem::load_scene(scene);
+  const std::unique_ptr<Engine> engine = make_engine(
+      engine::with_overrides(find_scene(wanted.scene), wanted.overrides), {.solver = variant});
+  engine->export_to(folder, {.first = wanted.first, .stride = wanted.stride});
   std::vector<std::filesystem::path> files;
-  dem::Simulation simulation(
-      loaded, make_step_solver(variant, loaded.solver.tol, loaded.solver.time_limit_s,
-                               loaded.solver.max_iterations));
-  dem::Exporter exporter(folder, {.first = first, .stride = stride});
-  simulation.add_observer([&](const dem::StepView& view) {
-    const auto before = exporter.written();
-    exporter(view);
-    if (exporter.written() == before) return;
-    files.push_back(folder / (view.problem->name() + ".h5"));
-  });
   const auto start = std::chrono::steady_clock::now();
   const std::chrono::duration<double> budget(budget_s);
-  while (simulation.summary().steps < steps && std::chrono::steady_clock::now() - start < budget) {
-    simulation.step();
+  while (engine->steps() < wanted.steps && std::chrono::steady_clock::now() - start < budget) {
+    const auto before = engine->exported().written;
+    engine->step();
+    if (engine->exported().written == before) continue;
+    files.push_back(problem_path(folder, engine->scene().name, engine->steps() - 1));
   }
   return files;
 }

@@ -6,11 +6,17 @@
 
 namespace conebench::harness {
 
-/// Simulates a built-in scene with a solver variant for `steps` steps and writes every `stride`-th
-/// from `first` on as a problem file in `folder`. Returns the files. At each step the solver may
-/// use the scene's tolerance and time limit.
-std::vector<std::filesystem::path> export_scene(const std::string& scene, int steps, int first,
-                                                int stride, double budget_s,
+/// Which steps of a built-in scene are exported: every `stride`-th from `first` on.
+struct SceneExport {
+  std::string scene;
+  int steps, first, stride;
+  std::vector<std::string> overrides;  ///< other values of the scene, each "PATH=VALUE"
+};
+
+/// Simulates the scene with a solver variant, for at most `budget_s` of wall time, and writes the
+/// problems in `folder`. Returns the files. At each step the solver may use the scene's tolerance
+/// and time limit.
+std::vector<std::filesystem::path> export_scene(const SceneExport& wanted, double budget_s,
                                                 const std::string& variant,
                                                 const std::filesystem::path& folder);
 

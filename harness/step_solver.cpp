@@ -5,20 +5,20 @@
 
 namespace conebench::harness {
 
-engine::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s,
-                                 std::int64_t max_iterations) {
-  const solvers::Stop stop{
-      .tol = tol, .max_iterations = max_iterations, .time_limit_s = time_limit_s};
+engine::StepSolver make_step_solver(const engine::SolverChoice& choice) {
+  const solvers::Stop stop{.tol = choice.tol,
+                           .max_iterations = choice.max_iterations,
+                           .time_limit_s = choice.time_limit_s};
   stop.check();
-  return [solver = solvers::make_solver(variant), stop](const problems::Problem& standard,
-                                                        const Eigen::VectorXd& guess) {
+  return [solver = solvers::make_solver(choice.name), stop](const problems::Problem& standard,
+                                                            const Eigen::VectorXd& guess) {
     if (const auto reason = solver.refuses(standard)) {
       throw problems::InputError(standard.name(), solver.name + " cannot solve it: " + *reason);
     }
     const solvers::Result result = solver.solve(standard, {.stop = stop, .guess = guess});
     return engine::StepAnswer{result.r, result.status == solvers::Status::kConverged,
-                           std::string(solvers::to_string(result.status)), result.iterations,
-                           result.setup_s + result.solve_s};
+                              std::string(solvers::to_string(result.status)), result.iterations,
+                              result.setup_s + result.solve_s};
   };
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "problems/engine/step_solver.h"
 
 namespace conebench::harness {
@@ -9,7 +7,6 @@ namespace conebench::harness {
 /// A solver of ours as the engines take it: stops on eta <= tol (common test), or after
 /// `time_limit_s` of solver time or `max_iterations` a step. Throws problems::InputError for an
 /// unknown variant, and at the first step that the solver cannot take.
-engine::StepSolver make_step_solver(const std::string& variant, double tol, double time_limit_s,
-                                 std::int64_t max_iterations = 1'000'000);
+engine::StepSolver make_step_solver(const engine::SolverChoice& choice);
 
 }  // namespace conebench::harness

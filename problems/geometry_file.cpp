@@ -56,6 +56,16 @@ void write_geometry(hdf5::Writer& writer, const Geometry& geometry, const Proble
             geometry.body_radii.size(), " entries, expected ", bodies);
     writer.array("/geometry/body_radii", geometry.body_radii);
   }
+  if (geometry.volume_fraction.size() > 0) {
+    require(geometry.volume_fraction.size() == cones, subject, "volume_fraction has ",
+            geometry.volume_fraction.size(), " entries, expected ", cones);
+    writer.array("/geometry/volume_fraction", geometry.volume_fraction);
+  }
+  if (!geometry.state.empty()) {
+    require(std::ssize(geometry.state) == cones, subject, "state has ", geometry.state.size(),
+            " entries, expected ", cones);
+    writer.array("/geometry/state", geometry.state);
+  }
 }
 
 std::optional<Geometry> read_geometry(const hdf5::Reader& reader, int cones) {
@@ -68,6 +78,16 @@ std::optional<Geometry> read_geometry(const hdf5::Reader& reader, int cones) {
     geometry.bodies_of_cone = Eigen::Map<const Geometry::Pairs>(pairs.data(), cones, 2);
   }
   read_bodies(reader, geometry);
+  if (reader.has("/geometry/volume_fraction")) {
+    geometry.volume_fraction = reader.vector("/geometry/volume_fraction", cones);
+  }
+  if (reader.has("/geometry/state")) {
+    geometry.state = reader.integers("/geometry/state");
+    if (std::ssize(geometry.state) != cones) {
+      reader.fail("/geometry/state", "has " + std::to_string(geometry.state.size()) +
+                                         " entries, expected " + std::to_string(cones));
+    }
+  }
   return geometry;
 }
 

@@ -196,6 +196,19 @@ Problem Problem::with_metadata(Metadata metadata) const {
   return copy;
 }
 
+Problem Problem::with_laws(std::vector<Cone> cones, Eigen::VectorXd w) const {
+  require_size(w, rows(), name(), "w");
+  require_finite(w, name(), "w");
+  require(row_starts(cones, name()) == operators_->start, name(),
+          "the new cones have other dims, expected the same ones");
+  Problem copy = *this;
+  copy.q_ += w - this->w();
+  copy.w_ = std::move(w);
+  copy.cones_ = std::move(cones);
+  copy.set_rate_scale({});
+  return copy;
+}
+
 const SparseMatrix& Problem::M() const {
   if (!is_primal()) throw std::logic_error(name() + ": M asked of a reduced problem");
   return operators_->M;

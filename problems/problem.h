@@ -69,6 +69,9 @@ class Problem {
   const std::string& name() const { return metadata_.name; }
   const Metadata& metadata() const { return metadata_; }
   Problem with_metadata(Metadata metadata) const;
+  /// The same matrices and f under other laws: cones of the same dims, and another w. Primal only.
+  /// Cost: one product with H; nothing is factorised. Throws InputError as the constructor.
+  Problem with_laws(std::vector<Cone> cones, Eigen::VectorXd w) const;
 
   std::span<const Cone> cones() const { return cones_; }
   int cone_count() const { return static_cast<int>(cones_.size()); }

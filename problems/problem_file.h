@@ -7,6 +7,13 @@
 
 namespace conebench::problems {
 
+/// What a node of a continuum does in its step, as files write it.
+enum class NodeState : int {
+  kLoose = 0,   ///< below the largest density: dry, and free to compress until it is reached
+  kBonded = 1,  ///< below the largest density, but cohesive as if it were dense
+  kDense = 2,   ///< at the largest density
+};
+
 /// Where the cones are in space: what a 3D view needs. Every table has one row a cone, or a body.
 struct Geometry {
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -17,6 +24,8 @@ struct Geometry {
   Pairs bodies_of_cone;        ///< cones x 2: body indices; -1 is a wall or the ground
   Table body_positions;        ///< bodies x 3 [m]
   Eigen::VectorXd body_radii;  ///< bodies; 0 where a body is not a sphere [m]
+  Eigen::VectorXd volume_fraction;  ///< cones; of the medium there [-]; 0: not a node of a medium
+  std::vector<int> state;           ///< cones; a NodeState, -1: not a node of a medium
 };
 
 /// An answer to the *standard* problem.

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <memory>
 
 #include "harness/campaign.h"
@@ -32,14 +31,15 @@ std::vector<std::string> demo_variants() {
   return variants;
 }
 
-struct SceneExport {
-  const char* scene;
-  int steps, first, stride;
-};
-
-// The walls of both columns go at step 100: some steps of settling, most of collapse.
-constexpr std::array<SceneExport, 2> kScenes = {
-    {{"column-dry", 300, 20, 20}, {"column-cohesive", 300, 20, 20}}};
+// The walls of the columns of spheres go at step 100: some steps of settling, most of collapse. The
+// sand gets cells of twice the size, and a law that needs one solve a step.
+std::vector<SceneExport> demo_scenes() {
+  const std::string coarse = "grid.cells=[40,10]", law = "material.law=dilation-aware";
+  return {{"column-dry", 300, 20, 20, {}},
+          {"column-cohesive", 300, 20, 20, {}},
+          {"sand-column", 100, 10, 10, {coarse}},
+          {"sand-column-cohesive", 100, 10, 10, {coarse, law}}};
+}
 constexpr auto kSceneSolver = "auto";
 constexpr double kSceneBudget_s = 25.0, kSceneLimit_s = 60.0;  // of wall time
 
@@ -62,23 +62,22 @@ void append_lines(const std::string& lines, Files& files) {
 }
 
 // Each scene in a process of its own, both at once where there are two cores. False: interrupted.
-bool simulate_scenes(const std::filesystem::path& folder, Files& files) {
+bool simulate_scenes(const std::vector<SceneExport>& scenes, const std::filesystem::path& folder,
+                     Files& files) {
   const auto make = [&](std::size_t i) -> Job {
-    const SceneExport& s = kScenes[i];
     return {.work =
-                [&s, folder] {
-                  return joined(export_scene(s.scene, s.steps, s.first, s.stride, kSceneBudget_s,
-                                             kSceneSolver, folder));
+                [scene = scenes[i], folder] {
+                  return joined(export_scene(scene, kSceneBudget_s, kSceneSolver, folder));
                 },
             .limits = {.wall_s = kSceneLimit_s, .memory_bytes = 0}};
   };
   const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
     if (outcome.output.empty()) {
-      throw problems::OutputError(kScenes[i].scene, "no step exported: " + describe_end(outcome));
+      throw problems::OutputError(scenes[i].scene, "no step exported: " + describe_end(outcome));
     }
     append_lines(outcome.output, files);
   };
-  return run_pool(kScenes.size(), demo_jobs(), {.make = make, .done = done, .tick = {}});
+  return run_pool(scenes.size(), demo_jobs(), {.make = make, .done = done, .tick = {}});
 }
 
 // A demo starts anew; the results of anything else are not touched.
@@ -103,9 +102,10 @@ CampaignOptions campaign_options(const std::filesystem::path& results_dir) {
 int demo(const std::filesystem::path& folder, const std::filesystem::path& data) {
   const auto problems_dir = folder / "problems", results_dir = folder / "results";
   clear_results(results_dir);
-  fmt::print(stderr, "1/4  simulating column-dry and column-cohesive\n");
+  const std::vector<SceneExport> scenes = demo_scenes();
+  fmt::print(stderr, "1/4  simulating {} scenes: spheres (dem) and sand (mpm)\n", scenes.size());
   Files files;
-  if (!simulate_scenes(problems_dir, files)) return kInterruptedExit;
+  if (!simulate_scenes(scenes, problems_dir, files)) return kInterruptedExit;
   fmt::print(stderr, "     {} steps exported to {}\n", files.size(), problems_dir.string());
 
   fmt::print(stderr, "2/4  making small problems with known solutions\n");

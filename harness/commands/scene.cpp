@@ -3,30 +3,32 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "dem/scene.h"
 #include "harness/commands/commands.h"
+#include "harness/engine.h"
 
 namespace conebench::harness {
 namespace {
 
 void list(bool json) {
   auto entries = nlohmann::json::array();
-  for (const auto& [name, text] : dem::builtin_scenes()) {
-    const dem::Scene scene = dem::parse_scene(text, name);
-    entries.push_back({{"name", name},
-                       {"engine", "dem"},
-                       {"steps", scene.step_count()},
-                       {"step_s", scene.step_s},
-                       {"solver", scene.solver.name},
-                       {"tol", scene.solver.tol}});
+  for (const EngineKind& kind : all_engines()) {
+    for (const auto& [name, text] : kind.builtin) {
+      const engine::SceneHeader scene = kind.read({std::string(name), std::string(text)});
+      entries.push_back({{"name", name},
+                         {"engine", kind.name},
+                         {"steps", scene.step_count()},
+                         {"step_s", scene.step_s},
+                         {"solver", scene.solver.name},
+                         {"tol", scene.solver.tol}});
+    }
   }
   if (json) {
     fmt::print("{}\n", entries.dump());
     return;
   }
-  fmt::print("{:<18} {:<6} {:>6} {:>8}  {}\n", "scene", "engine", "steps", "step", "solver");
+  fmt::print("{:<22} {:<6} {:>6} {:>8}  {}\n", "scene", "engine", "steps", "step", "solver");
   for (const auto& entry : entries) {
-    fmt::print("{:<18} {:<6} {:>6} {:>6g} s  {} to {:g}\n", entry["name"].get<std::string>(),
+    fmt::print("{:<22} {:<6} {:>6} {:>6g} s  {} to {:g}\n", entry["name"].get<std::string>(),
                entry["engine"].get<std::string>(), entry["steps"].get<std::int64_t>(),
                entry["step_s"].get<double>(), entry["solver"].get<std::string>(),
                entry["tol"].get<double>());
@@ -51,7 +53,8 @@ void add_scene(CLI::App& app, int& exit_code) {
   CLI::App* show = verb->add_subcommand("show", "Print a scene with every default, as TOML");
   show->add_option("SCENE", *name, "Built-in name or .toml file")->required();
   show->callback([name, &exit_code] {
-    fmt::print("{}", dem::to_toml(dem::load_scene(*name)));
+    const engine::SceneText scene = find_scene(*name);
+    fmt::print("{}", engine_of(scene).print(scene));
     exit_code = 0;
   });
 }

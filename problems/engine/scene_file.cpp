@@ -110,7 +110,9 @@ std::string print_header(const SceneHeader& header, std::string_view engine,
       header.solver.time_limit_s, header.solver.max_iterations);
 }
 
-std::string show(const Eigen::Vector3d& x) { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }
+std::string show(const Eigen::Vector3d& x, int count) {
+  return fmt::format("[{}]", fmt::join(x.data(), x.data() + count, ", "));
+}
 
 std::string quote(std::string_view text) {
   std::string out = "\"";

@@ -29,6 +29,12 @@ SceneText load_scene_text(const std::string& name_or_path, std::span<const Built
 /// Parses TOML. Throws InputError naming the line.
 toml::table parse_toml(const SceneText& scene);
 
+/// The scene with other values, each "PATH=VALUE": a path is dotted, with places in arrays, such as
+/// material.friction or blocks[0].high_m[1]; a value is TOML, or a bare word for a string. The last
+/// key of a path may be new (the engine's parser judges it), what leads to it must be there.
+/// Throws InputError.
+SceneText with_overrides(const SceneText& scene, std::span<const std::string> overrides);
+
 /// What a scene says before anything that its engine understands.
 struct SceneHeader {
   std::string name;
@@ -52,8 +58,9 @@ SceneHeader read_header(TomlReader& in, std::string_view engine);
 std::string print_header(const SceneHeader& header, std::string_view engine,
                          std::string_view extra);
 
-/// Shortest digits that read back as the same double, and a TOML basic string.
-std::string show(const Eigen::Vector3d& x);
+/// Shortest digits that read back as the same double, of the first `count` entries; and a TOML
+/// basic string.
+std::string show(const Eigen::Vector3d& x, int count = 3);
 std::string quote(std::string_view text);
 
 }  // namespace conebench::engine

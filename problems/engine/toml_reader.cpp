@@ -42,6 +42,8 @@ std::string_view in_words(Range range) {
       return "a number > 0";
     case Range::kUnitInterval:
       return "a number in [0, 1]";
+    case Range::kPositiveShare:
+      return "a number in (0, 1]";
   }
   return {};
 }
@@ -57,8 +59,15 @@ bool contains(Range range, double value) {
       return value > 0.0;
     case Range::kUnitInterval:
       return value >= 0.0 && value <= 1.0;
+    case Range::kPositiveShare:
+      return value > 0.0 && value <= 1.0;
   }
   return false;
+}
+
+std::string integer_in_words(std::int64_t low) { return fmt::format("an integer >= {}", low); }
+std::string numbers_in_words(std::size_t count) {
+  return fmt::format("an array of {} numbers", count);
 }
 
 std::string found_expected(std::string_view found, std::string_view expected) {
@@ -91,13 +100,22 @@ double TomlReader::to_number(const toml::node& node, std::string_view key, Range
   if (!node.is_number()) fail(key, found_expected(type_in_words(node), in_words(range)));
   const double value = *node.value<double>();
   if (!contains(range, value)) fail(key, found_expected(fmt::format("{}", value), in_words(range)));
+  return value + 0.0;  // -0.0 becomes 0.0: printed as "-0" it would read back as the integer 0
+}
+
+std::int64_t TomlReader::to_integer(const toml::node& node, std::string_view key,
+                                    std::int64_t low) const {
+  const std::string expected = integer_in_words(low);
+  if (!node.is_integer()) fail(key, found_expected(type_in_words(node), expected));
+  const std::int64_t value = *node.value<std::int64_t>();
+  if (value < low) fail(key, found_expected(fmt::format("{}", value), expected));
   return value;
 }
 
-std::vector<double> TomlReader::numbers(const toml::node& node, std::string_view key,
-                                        std::size_t count, Range range) const {
+std::vector<double> TomlReader::to_numbers(const toml::node& node, std::string_view key,
+                                           std::size_t count, Range range) const {
   const toml::array* array = node.as_array();
-  const std::string expected = fmt::format("an array of {} numbers", count);
+  const std::string expected = numbers_in_words(count);
   if (!array) fail(key, found_expected(type_in_words(node), expected));
   if (array->size() != count) {
     fail(key, found_expected(fmt::format("an array of {}", array->size()), expected));
@@ -117,13 +135,8 @@ double TomlReader::number(std::string_view key, Range range, std::optional<doubl
 
 std::int64_t TomlReader::integer(std::string_view key, std::int64_t low,
                                  std::optional<std::int64_t> fallback) {
-  const std::string expected = fmt::format("an integer >= {}", low);
-  const toml::node* node = fallback ? find(key) : &need(key, expected);
-  if (!node) return *fallback;
-  if (!node->is_integer()) fail(key, found_expected(type_in_words(*node), expected));
-  const std::int64_t value = *node->value<std::int64_t>();
-  if (value < low) fail(key, found_expected(fmt::format("{}", value), expected));
-  return value;
+  const toml::node* node = fallback ? find(key) : &need(key, integer_in_words(low));
+  return node ? to_integer(*node, key, low) : *fallback;
 }
 
 bool TomlReader::boolean(std::string_view key, bool fallback) {
@@ -141,18 +154,52 @@ std::string TomlReader::text(std::string_view key, std::optional<std::string> fa
 }
 
 Eigen::Vector3d TomlReader::vector(std::string_view key, std::optional<Eigen::Vector3d> fallback) {
-  const toml::node* node = fallback ? find(key) : &need(key, "an array of 3 numbers");
+  const toml::node* node = fallback ? find(key) : &need(key, numbers_in_words(3));
   if (!node) return *fallback;
-  const std::vector<double> values = numbers(*node, key, 3, Range::kAny);
+  const std::vector<double> values = to_numbers(*node, key, 3, Range::kAny);
   return {values[0], values[1], values[2]};
 }
 
+std::vector<double> TomlReader::numbers(std::string_view key, std::size_t count, Range range,
+                                        std::optional<std::vector<double>> fallback) {
+  const toml::node* node = fallback ? find(key) : &need(key, numbers_in_words(count));
+  return node ? to_numbers(*node, key, count, range) : *fallback;
+}
+
 Eigen::Vector2d TomlReader::interval(std::string_view key, Range range) {
-  const std::vector<double> values = numbers(need(key, "an array of 2 numbers"), key, 2, range);
+  const std::vector<double> values = numbers(key, 2, range);
   if (values[0] > values[1]) {
     fail(key, fmt::format("found [{}, {}], expected the smaller first", values[0], values[1]));
   }
   return {values[0], values[1]};
+}
+
+std::vector<std::int64_t> TomlReader::integers(std::string_view key, std::size_t least,
+                                               std::size_t most, std::int64_t low) {
+  const std::string expected = fmt::format("an array of {} to {} integers >= {}", least, most, low);
+  const toml::node& node = need(key, expected);
+  const toml::array* array = node.as_array();
+  if (!array) fail(key, found_expected(type_in_words(node), expected));
+  if (array->size() < least || array->size() > most) {
+    fail(key, found_expected(fmt::format("an array of {}", array->size()), expected));
+  }
+  std::vector<std::int64_t> values;
+  for (const toml::node& entry : *array) values.push_back(to_integer(entry, key, low));
+  return values;
+}
+
+std::size_t TomlReader::word(std::string_view key, std::span<const std::string> words,
+                             std::optional<std::string> fallback) {
+  const std::string expected = fmt::format("one of \"{}\"", fmt::join(words, "\", \""));
+  const toml::node* node = fallback ? find(key) : &need(key, expected);
+  if (node && !node->is_string()) fail(key, found_expected(type_in_words(*node), expected));
+  const std::string found = node ? *node->value<std::string>() : *fallback;
+  const auto at = std::find(words.begin(), words.end(), found);
+  if (at == words.end()) {
+    fail(key, found_expected(fmt::format("\"{}\"", found), expected) +
+                  problems::suggestion(found, words));
+  }
+  return static_cast<std::size_t>(at - words.begin());
 }
 
 std::vector<std::string> TomlReader::texts(std::string_view key, std::size_t count) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace conebench::engine {
 
 /// What a number may be; said in words in the error.
-enum class Range { kAny, kNotNegative, kPositive, kUnitInterval };
+enum class Range { kAny, kNotNegative, kPositive, kUnitInterval, kPositiveShare };
 
 /// One TOML table, read key by key. Every key asked for is remembered, so that finish() can name
 /// those that nobody knows. Internal to the scene parsers.
@@ -29,8 +30,21 @@ class TomlReader {
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
   Eigen::Vector3d vector(std::string_view key, std::optional<Eigen::Vector3d> fallback = {});
+  std::vector<double> numbers(std::string_view key, std::size_t count, Range range,
+                              std::optional<std::vector<double>> fallback = {});
   Eigen::Vector2d interval(std::string_view key, Range range);
   std::vector<std::string> texts(std::string_view key, std::size_t count);
+
+  /// From `least` to `most` integers, each >= low.
+  std::vector<std::int64_t> integers(std::string_view key, std::size_t least, std::size_t most,
+                                     std::int64_t low);
+
+  /// The place among `words` of the one that is there. Errors suggest the nearest word.
+  std::size_t word(std::string_view key, std::span<const std::string> words,
+                   std::optional<std::string> fallback = {});
+
+  bool has(std::string_view key) const { return table_->contains(key); }
+  bool has_table(std::string_view key) const { return table_->get_as<toml::table>(key); }
 
   /// The sub-table, or nothing; and the elements of an array of tables, possibly none.
   std::optional<TomlReader> table(std::string_view key);
@@ -46,8 +60,9 @@ class TomlReader {
   const toml::node* find(std::string_view key);
   const toml::node& need(std::string_view key, std::string_view expected);
   double to_number(const toml::node& node, std::string_view key, Range range) const;
-  std::vector<double> numbers(const toml::node& node, std::string_view key, std::size_t count,
-                              Range range) const;
+  std::int64_t to_integer(const toml::node& node, std::string_view key, std::int64_t low) const;
+  std::vector<double> to_numbers(const toml::node& node, std::string_view key, std::size_t count,
+                                 Range range) const;
 
   const toml::table* table_;
   std::string path_, subject_;

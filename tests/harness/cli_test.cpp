@@ -1,69 +1,27 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "harness/small_problems.h"
 #include "problems/problem_file.h"
+#include "tests/harness/program_test.h"
 
 namespace conebench::harness {
 namespace {
 
 using testing::HasSubstr;
 
-struct Ran {
-  int code = -1;
-  std::string out, err;
-  long error_lines() const { return std::count(err.begin(), err.end(), '\n'); }
-};
-
-std::string content(const std::filesystem::path& path) {
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-class CommandLineTest : public testing::Test {
+class CommandLineTest : public ProgramTest {
  protected:
-  CommandLineTest()
-      : folder_(std::filesystem::path(testing::TempDir()) /
-                ("conebench-cli-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_ / "problems");
+  CommandLineTest() {
+    std::filesystem::create_directories(problems());
     for (const std::size_t i : {1u, 5u}) {
       const NamedRecipe named = small_recipes()[i];
       problems::write_problem_file(problems() / (named.name + ".h5"),
                                    {make_named(named), {}, {}, {}});
     }
   }
-  ~CommandLineTest() override { std::filesystem::remove_all(folder_); }
 
   std::filesystem::path problems() const { return folder_ / "problems"; }
   std::string problem() const { return (problems() / "made-3d.h5").string(); }
-
-  /// Runs the built program in a shell; `before` may set limits.
-  Ran conebench(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = before + " cd '" + folder_.string() +
-                                "' && " CONEBENCH_PROGRAM " " + arguments + " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), content(folder_ / "out.txt"), content(folder_ / "err.txt")};
-  }
-
-  void expect_usage_error(const std::string& arguments, const std::string& what) const {
-    const Ran ran = conebench(arguments);
-    EXPECT_EQ(ran.code, 2) << arguments << "\n" << ran.err;
-    EXPECT_EQ(ran.error_lines(), 1) << ran.err;
-    EXPECT_THAT(ran.err, HasSubstr(what));
-    EXPECT_EQ(ran.out, "");
-  }
-
-  std::filesystem::path folder_;
 };
 
 TEST_F(CommandLineTest, HelpNamesEveryVerbAndTheExitCodes) {

@@ -1,0 +1,143 @@
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "mpm/simulation.h"
+#include "problems/atomic_file.h"
+#include "problems/error.h"
+
+namespace conebench::mpm {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::string_view kFormat = "conebench-mpm-checkpoint";
+constexpr int kVersion = 1;
+
+// The bytes of an array, so that every bit comes back.
+template <class T>
+json bytes_of(const std::vector<T>& values) {
+  const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
+  return json::binary(std::vector<std::uint8_t>(first, first + values.size() * sizeof(T)));
+}
+
+template <class T>
+void read_bytes(const json& from, std::size_t count, std::vector<T>& values) {
+  const auto& bytes = from.get_binary();
+  if (bytes.size() != count * sizeof(T)) throw std::length_error("an array of another length");
+  values.resize(count);
+  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::uint8_t*>(values.data()));
+}
+
+// Calls f(name, array) for every array of the particles.
+template <class Owner, class F>
+void for_each_array(Owner& particles, const F& f) {
+  f("position", particles.position);
+  f("velocity", particles.velocity);
+  f("affine", particles.affine);
+  f("volume", particles.volume);
+  f("cohesion", particles.cohesion);
+  f("inertial_number", particles.inertial_number);
+  f("stress", particles.stress);
+}
+
+// What moves of the bodies: 13 numbers each.
+std::vector<double> body_numbers(const std::vector<RigidBody>& bodies) {
+  std::vector<double> out;
+  for (const RigidBody& b : bodies) {
+    for (const Eigen::Vector3d& x : {b.centre_m, b.velocity, b.angular_velocity}) {
+      out.insert(out.end(), x.begin(), x.end());
+    }
+    out.insert(out.end(), b.orientation.coeffs().begin(), b.orientation.coeffs().end());
+  }
+  return out;
+}
+
+void set_bodies(const std::vector<double>& from, std::vector<RigidBody>& bodies) {
+  const double* x = from.data();
+  for (RigidBody& b : bodies) {
+    for (Eigen::Vector3d* vector : {&b.centre_m, &b.velocity, &b.angular_velocity}) {
+      *vector = Eigen::Map<const Eigen::Vector3d>(x);
+      x += 3;
+    }
+    b.orientation.coeffs() = Eigen::Map<const Eigen::Vector4d>(x);
+    x += 4;
+  }
+}
+
+// Counts and seconds of a summary, in one fixed order.
+template <class Totals, class F>
+void for_each_total(Totals& s, const F& f) {
+  f("steps", s.steps);
+  f("repeated_steps", s.repeated_steps);
+  f("unconverged_steps", s.unconverged_steps);
+  f("solves", s.solves);
+  f("cycles", s.cycles);
+  f("capped", s.capped);
+  f("iterations", s.iterations);
+  f("last_cones", s.last_cones);
+  f("most_cones", s.most_cones);
+  f("left_particles", s.left_particles);
+  f("left_volume_m3", s.left_volume_m3);
+  f("transfer_s", s.transfer_s);
+  f("assembly_s", s.assembly_s);
+  f("solve_s", s.solve_s);
+}
+
+std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  problems::require(file && !std::filesystem::is_directory(path), path.string(),
+                    "cannot be read, expected a checkpoint");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+void Simulation::save(const std::filesystem::path& path) const {
+  json out = {{"format", kFormat}, {"version", kVersion}, {"scene", to_toml(scene_)},
+              {"time_s", time_s_}, {"count", particles_.count()}};
+  for_each_array(particles_, [&](const char* name, const auto& values) {
+    out["particles"][name] = bytes_of(values);
+  });
+  out["nodes"] = {{"index", last_index_}, {"stress", bytes_of(last_stress_)}};
+  out["bodies"] = bytes_of(body_numbers(bodies_));
+  for_each_total(summary_, [&](const char* name, const auto& value) { out["totals"][name] = value; });
+  const std::vector<std::uint8_t> bytes = json::to_cbor(out);
+  problems::write_file_atomically(path, std::as_bytes(std::span(bytes)));
+}
+
+void Simulation::restart(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> bytes = read_file(path);
+  try {
+    const json in = json::from_cbor(bytes);
+    problems::require(in.at("format") == kFormat && in.at("version") == kVersion, path.string(),
+                      "not a checkpoint of this version, expected ", kFormat, " ", kVersion);
+    problems::require(in.at("scene") == to_toml(scene_), path.string(),
+                      "is of another scene, or of other settings, than ", scene_.name);
+    Particles particles;
+    for_each_array(particles, [&](const char* name, auto& values) {
+      read_bytes(in.at("particles").at(name), in.at("count"), values);
+    });
+    std::vector<int> index;
+    std::vector<Particles::Stress> stress;
+    in.at("nodes").at("index").get_to(index);
+    read_bytes(in.at("nodes").at("stress"), index.size(), stress);
+    std::vector<double> numbers;
+    read_bytes(in.at("bodies"), 13 * bodies_.size(), numbers);
+    Summary summary;
+    for_each_total(summary, [&](const char* name, auto& v) { in.at("totals").at(name).get_to(v); });
+    time_s_ = in.at("time_s");
+    summary_ = summary;
+    particles_ = std::move(particles);
+    last_index_ = std::move(index);
+    last_stress_ = std::move(stress);
+    set_bodies(numbers, bodies_);
+  } catch (const problems::InputError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw problems::InputError(path.string(),
+                               std::string("not a whole checkpoint: ") + error.what());
+  }
+}
+
+}  // namespace conebench::mpm

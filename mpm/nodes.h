@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "mpm/particles.h"
+#include "mpm/rigid_body.h"
+#include "mpm/scene.h"
+
+namespace conebench::mpm {
+
+/// What the particles say to the grid at the beginning of a step: the active nodes and what they
+/// carry, one entry an active node in every array, in the order of the grid's numbering.
+///
+/// Active are the vertices of cells that hold a particle, less those that it hardly reaches
+/// (a particle on a face between cells gives its far nodes no volume).
+struct Nodes {
+  /// A node holding less than this share of its own volume is left out.
+  static constexpr double kLeastShare = 1e-9;
+
+  std::vector<int> index;    ///< node of the grid
+  std::vector<int> slot_of;  ///< of every node of the grid: its place in `index`, or -1
+  Eigen::VectorXd solid;     ///< Phi_i = sum V_p N_i(x_p) [m3]
+  Eigen::VectorXd volume;    ///< V_i, the integral of N_i over the grid [m3]
+  Eigen::VectorXd covered;   ///< the part of it that rigid bodies cover [m3]
+  Eigen::VectorXd cohesion;  ///< c_i, mean over the particles [Pa]
+  Eigen::VectorXd friction;  ///< mu(I)_i [-]
+  std::vector<Eigen::Vector3d> velocity;   ///< of the material [m/s]
+  std::vector<Particles::Stress> stress;   ///< mean of the particles', or what it was last [Pa]
+  /// sum_p V_p N_i(x_p) grad N_k(x_p) for the 3^d neighbours k of node i, x fastest [m2].
+  std::vector<Eigen::Vector3d> coupling;
+
+  int count() const { return static_cast<int>(index.size()); }
+  double fraction(int i) const { return solid[i] / volume[i]; }
+};
+
+/// Neighbours of a node, itself included: 3^d; Nodes::coupling has as many entries a node.
+constexpr int neighbour_count(int dim) { return dim == 2 ? 9 : 27; }
+
+/// Particles to grid. Momentum by APIC: sum V_p N_i (v_p + C_p (x_i - x_p)).
+/// Cost: linear in the particles, 4^d products each; arrays of `nodes` are reused.
+void scatter(const Scene& scene, const Particles& particles, Nodes& nodes);
+
+/// Fills `covered` by midpoint quadrature of 4^d samples a cell, at nodes near a body only.
+void cover(const Scene& scene, const std::vector<RigidBody>& bodies, Nodes& nodes);
+
+/// Grid to particles: v_p, C_p, stress, inertial number, cohesion's decay; then x_p += h v_p.
+/// `velocity` has one entry an active node; `stress` likewise, r/h.
+void gather(const Scene& scene, const Nodes& nodes, const std::vector<Eigen::Vector3d>& velocity,
+            const std::vector<Particles::Stress>& stress, double h, Particles& particles);
+
+/// How many cells the fastest particle would cross in h.
+double cells_crossed(const Scene& scene, const Nodes& nodes,
+                     const std::vector<Eigen::Vector3d>& velocity, const Particles& particles,
+                     double h);
+
+}  // namespace conebench::mpm

@@ -1,0 +1,159 @@
+#include <algorithm>
+
+#include "mpm/nodes.h"
+
+namespace conebench::mpm {
+namespace {
+
+// Marks the vertices of cells that hold a particle and sums their solid volume, on the whole grid.
+template <int D>
+std::vector<double> solid_volumes(const Scene& scene, const Particles& particles) {
+  std::vector<double> solid(static_cast<std::size_t>(scene.grid.node_count()), 0.0);
+  for (std::size_t p = 0; p < particles.count(); ++p) {
+    const Stencil<D> s = stencil_at<D>(scene.grid, particles.position[p]);
+    for (std::size_t k = 0; k < Stencil<D>::kNodes; ++k) {
+      solid[static_cast<std::size_t>(s.node[k])] += particles.volume[p] * s.weight[k];
+    }
+  }
+  return solid;
+}
+
+void activate(const Grid& grid, const std::vector<double>& solid, Nodes& nodes) {
+  nodes.index.clear();
+  nodes.slot_of.assign(solid.size(), -1);
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    const int node = static_cast<int>(i);
+    if (solid[i] <= Nodes::kLeastShare * grid.node_volume(node)) continue;
+    nodes.slot_of[i] = nodes.count();
+    nodes.index.push_back(node);
+  }
+  const int count = nodes.count();
+  nodes.solid.resize(count);
+  nodes.volume.resize(count);
+  for (int i = 0; i < count; ++i) {
+    const int node = nodes.index[static_cast<std::size_t>(i)];
+    nodes.solid[i] = solid[static_cast<std::size_t>(node)];
+    nodes.volume[i] = grid.node_volume(node);
+  }
+  nodes.covered.setZero(count);
+  nodes.cohesion.setZero(count);
+  nodes.friction.setZero(count);
+  const auto size = static_cast<std::size_t>(count);
+  nodes.velocity.assign(size, Eigen::Vector3d::Zero());
+  nodes.stress.assign(size, Particles::Stress::Zero());
+  nodes.coupling.assign(size * static_cast<std::size_t>(neighbour_count(grid.dim)),
+                        Eigen::Vector3d::Zero());
+}
+
+// Place of node k of a cell among the neighbours of its node i.
+template <int D>
+std::size_t neighbour(std::size_t i, std::size_t k) {
+  std::size_t place = 0, stride = 1;
+  for (int a = 0; a < D; ++a, stride *= 3) place += stride * (1 + (k >> a & 1) - (i >> a & 1));
+  return place;
+}
+
+// Sums over particles; `friction` holds the sum of inertial numbers meanwhile.
+template <int D>
+void sum(const Scene& scene, const Particles& particles, Nodes& nodes) {
+  constexpr std::size_t kNodes = Stencil<D>::kNodes;
+  constexpr std::size_t kNeighbours = neighbour_count(D);
+  std::array<std::array<std::size_t, kNodes>, kNodes> places;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    for (std::size_t k = 0; k < kNodes; ++k) places[i][k] = neighbour<D>(i, k);
+  }
+  for (std::size_t p = 0; p < particles.count(); ++p) {
+    const Stencil<D> s = stencil_at<D>(scene.grid, particles.position[p]);
+    const Vec<D> v = particles.velocity[p].template head<D>();
+    const Eigen::Matrix<double, D, D> C = particles.affine[p].template topLeftCorner<D, D>();
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const int slot = nodes.slot_of[static_cast<std::size_t>(s.node[i])];
+      if (slot < 0) continue;
+      const auto place = static_cast<std::size_t>(slot);
+      const double share = particles.volume[p] * s.weight[i];
+      nodes.velocity[place].template head<D>() += share * (v + C * s.reach[i]);
+      nodes.stress[place] += share * particles.stress[p];
+      nodes.cohesion[slot] += share * particles.cohesion[p];
+      nodes.friction[slot] += share * particles.inertial_number[p];
+      for (std::size_t k = 0; k < kNodes; ++k) {
+        nodes.coupling[place * kNeighbours + places[i][k]].template head<D>() +=
+            share * s.gradient[k];
+      }
+    }
+  }
+}
+
+void divide(const Material& material, Nodes& nodes) {
+  for (int i = 0; i < nodes.count(); ++i) {
+    const auto slot = static_cast<std::size_t>(i);
+    const double share = 1.0 / nodes.solid[i];
+    nodes.velocity[slot] *= share;
+    nodes.stress[slot] *= share;
+    nodes.cohesion[i] *= share;
+    const double I = nodes.friction[i] * share;
+    nodes.friction[i] =
+        material.friction + material.friction_rise * I / (I + material.inertial_number_0);
+  }
+}
+
+template <int D>
+void scatter_in(const Scene& scene, const Particles& particles, Nodes& nodes) {
+  activate(scene.grid, solid_volumes<D>(scene, particles), nodes);
+  sum<D>(scene, particles, nodes);
+  divide(scene.material, nodes);
+}
+
+constexpr int kSamples = 4;  // of a cell, along each axis
+
+// The integral of the node's shape function over what the bodies cover.
+double covered_volume(const Grid& grid, int node, const std::vector<RigidBody>& bodies) {
+  const Eigen::Vector3d x = grid.position(node);
+  const Eigen::Vector3i at = grid.place(node);
+  Eigen::Vector3i samples = Eigen::Vector3i::Ones();
+  for (int a = 0; a < grid.dim; ++a) samples[a] = 2 * kSamples;
+  double volume = 0.0;
+  for (int k = 0; k < samples.prod(); ++k) {
+    const Eigen::Vector3i place(k % samples[0], k / samples[0] % samples[1],
+                                k / samples[0] / samples[1]);
+    Eigen::Vector3d y = x;
+    double weight = grid.cell_volume() / std::pow(kSamples, grid.dim);
+    for (int a = 0; a < grid.dim; ++a) {
+      const double offset = (place[a] + 0.5) / kSamples - 1.0;  // in cells, -1..1
+      const bool outside = offset < 0.0 ? at[a] == 0 : at[a] == grid.cells[a];
+      weight *= outside ? 0.0 : 1.0 - std::abs(offset);
+      y[a] += offset * grid.spacing(a);
+    }
+    const bool inside = std::any_of(bodies.begin(), bodies.end(), [&](const RigidBody& body) {
+      return distance_to(body, grid.dim, y).value < 0.0;
+    });
+    if (inside) volume += weight;
+  }
+  return volume;
+}
+
+}  // namespace
+
+void scatter(const Scene& scene, const Particles& particles, Nodes& nodes) {
+  if (scene.grid.dim == 2) {
+    scatter_in<2>(scene, particles, nodes);
+  } else {
+    scatter_in<3>(scene, particles, nodes);
+  }
+}
+
+void cover(const Scene& scene, const std::vector<RigidBody>& bodies, Nodes& nodes) {
+  const Grid& grid = scene.grid;
+  double diagonal = 0.0;
+  for (int a = 0; a < grid.dim; ++a) diagonal += grid.spacing(a) * grid.spacing(a);
+  diagonal = std::sqrt(diagonal);
+  for (int i = 0; i < nodes.count(); ++i) {
+    const int node = nodes.index[static_cast<std::size_t>(i)];
+    const Eigen::Vector3d x = grid.position(node);
+    const bool near = std::any_of(bodies.begin(), bodies.end(), [&](const RigidBody& body) {
+      return distance_to(body, grid.dim, x).value < diagonal;
+    });
+    if (near) nodes.covered[i] = covered_volume(grid, node, bodies);
+  }
+}
+
+}  // namespace conebench::mpm

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace conebench::engine {
+
+/// The text of a ParaView file (.vtp): XML poly data, one vertex cell a point. Call points() first,
+/// then one function a point array, then finish(). Each asks for its values by the point's index.
+class PolyData {
+ public:
+  using Vectors = std::function<Eigen::Vector3d(int)>;
+  using Scalars = std::function<double(int)>;
+  using Integers = std::function<int(int)>;
+
+  explicit PolyData(int points);
+
+  void points(const Vectors& value);
+  void vectors(std::string_view name, const Vectors& value);
+  void scalars(std::string_view name, const Scalars& value);
+  void integers(std::string_view name, const Integers& value);
+  std::string finish();
+
+ private:
+  template <class Value>
+  void array(std::string_view type, std::string_view name, const Value& value);
+
+  int points_;
+  std::string text_;
+};
+
+/// A written step of a run.
+struct VtkStep {
+  double time_s;
+  std::int64_t step;
+};
+
+/// "<prefix>_<step, 6 digits>.vtp".
+std::string vtk_file_name(std::string_view prefix, std::int64_t step);
+
+/// Writes FOLDER/<prefix>.pvd, the time series of the files of these steps. Throws OutputError.
+void write_vtk_series(const std::filesystem::path& folder, std::string_view prefix,
+                      std::span<const VtkStep> steps);
+
+}  // namespace conebench::engine
