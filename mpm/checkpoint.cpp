@@ -99,7 +99,8 @@ void Simulation::save(const std::filesystem::path& path) const {
   for_each_array(particles_, [&](const char* name, const auto& values) {
     out["particles"][name] = bytes_of(values);
   });
-  out["nodes"] = {{"index", last_index_}, {"stress", bytes_of(last_stress_)}};
+  out["nodes"] = {{"index", last_index_}, {"stress", bytes_of(last_stress_)},
+                  {"state", bytes_of(last_states_)}};
   out["bodies"] = bytes_of(body_numbers(bodies_));
   for_each_total(summary_, [&](const char* name, const auto& value) { out["totals"][name] = value; });
   const std::vector<std::uint8_t> bytes = json::to_cbor(out);
@@ -120,8 +121,10 @@ void Simulation::restart(const std::filesystem::path& path) {
     });
     std::vector<int> index;
     std::vector<Particles::Stress> stress;
+    std::vector<NodeState> states;
     in.at("nodes").at("index").get_to(index);
     read_bytes(in.at("nodes").at("stress"), index.size(), stress);
+    read_bytes(in.at("nodes").at("state"), index.size(), states);
     std::vector<double> numbers;
     read_bytes(in.at("bodies"), 13 * bodies_.size(), numbers);
     Summary summary;
@@ -131,6 +134,7 @@ void Simulation::restart(const std::filesystem::path& path) {
     particles_ = std::move(particles);
     last_index_ = std::move(index);
     last_stress_ = std::move(stress);
+    last_states_ = std::move(states);
     set_bodies(numbers, bodies_);
   } catch (const problems::InputError&) {
     throw;

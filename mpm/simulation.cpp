@@ -106,7 +106,8 @@ Simulation::Solved Simulation::solve(const problems::Problem& base, const LawInp
 
 Simulation::Solved Simulation::search_states(const problems::Problem& base, const LawInput& input,
                                              const Eigen::VectorXd& unshifted_guess) {
-  const std::vector<NodeState> start = law_->classify(input);
+  std::vector<NodeState> start = law_->classify(input);
+  recall_states(start);
   MonotoneSearch search(start, may_change(input, start));
   const auto count = static_cast<Eigen::Index>(start.size());
   Eigen::VectorXd r = unshifted_guess;
@@ -159,6 +160,7 @@ bool Simulation::try_step(double h) {
     const Stopwatch watch(summary_.transfer_s);
     last_stress_ = node_stress(solved, h);
     last_index_ = nodes_.index;
+    last_states_ = solved.states;
     gather(scene_, nodes_, velocity, last_stress_, h, particles_);
     keep_inside();
   }
@@ -211,6 +213,16 @@ void Simulation::recall_stress() {
   for (std::size_t k = 0; k < last_index_.size(); ++k) {
     const int slot = nodes_.slot_of[static_cast<std::size_t>(last_index_[k])];
     if (slot >= 0) nodes_.stress[static_cast<std::size_t>(slot)] = last_stress_[k];
+  }
+}
+
+// The search starts from what the nodes were last, where they are under-dense now as then.
+void Simulation::recall_states(std::vector<NodeState>& states) const {
+  for (std::size_t k = 0; k < last_states_.size(); ++k) {
+    const int slot = nodes_.slot_of[static_cast<std::size_t>(last_index_[k])];
+    if (slot < 0 || last_states_[k] == NodeState::kDense) continue;
+    NodeState& state = states[static_cast<std::size_t>(slot)];
+    if (state != NodeState::kDense) state = last_states_[k];
   }
 }
 

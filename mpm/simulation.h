@@ -92,6 +92,7 @@ class Simulation {
   void move_bodies(const Assembly& assembly, const Eigen::VectorXd& v, double h);
   void keep_inside();
   void recall_stress();
+  void recall_states(std::vector<NodeState>& states) const;
 
   Scene scene_;
   engine::StepSolver solver_;
@@ -99,8 +100,10 @@ class Simulation {
   Particles particles_;
   std::vector<RigidBody> bodies_, bodies_before_;
   Nodes nodes_;
-  std::vector<int> last_index_;                 // nodes of the grid in the last step,
-  std::vector<Particles::Stress> last_stress_;  // and their stress: where the next one starts
+  // Where the next step starts: nodes of the grid in the last step, their stress and state.
+  std::vector<int> last_index_;
+  std::vector<Particles::Stress> last_stress_;
+  std::vector<NodeState> last_states_;
   double time_s_ = 0.0;
   Summary summary_;
   std::vector<Observer> observers_;

@@ -102,6 +102,11 @@ void override_one(toml::table& scene, const std::string& text) {
   toml::node* parent = &scene;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
     toml::node* next = follow(*parent, steps[i]);
+    if (!next && parent->is_table() && !steps[i].is_place() && !steps[i + 1].is_place()) {
+      // A table that the scene leaves at its defaults; one that nobody knows is the parser's error.
+      parent->as_table()->insert(steps[i].key, toml::table{});
+      next = follow(*parent, steps[i]);
+    }
     if (!next) fail_at(*parent, steps[i], path);
     parent = next;
   }
