@@ -1,0 +1,87 @@
+#include "solvers/local/newton.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+
+#include "problems/cone.h"
+#include "solvers/local/newton_ac.h"
+#include "solvers/local/newton_fb.h"
+
+namespace conebench::solvers {
+namespace {
+
+constexpr int kSteps = 60, kHalvings = 12;
+constexpr double kSufficientDecrease = 1e-4;
+constexpr double kGoal = 1e-15;      // of the natural residual: no further steps
+constexpr double kAccepted = 1e-11;  // of the natural residual: a solution
+
+}  // namespace
+
+template <int D, class Equation>
+void NewtonLocal<D, Equation>::set(const Matrix& W, double lambda, double mu, double theta) {
+  problem_ = {W, lambda, mu, theta};
+  equation_.set(problem_);
+}
+
+template <int D, class Equation>
+void NewtonLocal<D, Equation>::evaluate(const Vector& q, const Vector& r,
+                                        NewtonPoint<D>& point) const {
+  const double lambda = problem_.lambda;
+  Vector u = problem_.W * r + q;
+  equation_.evaluate(problem_, u, r, point);
+  problems::add_de_saxce(problem_.theta, u);
+  Vector projected = r - u / lambda;
+  problems::project(problem_.mu, projected);
+  point.miss = (r - projected).norm();
+  point.scale = std::max(q.norm() / lambda, r.norm());
+}
+
+// Leaves the last iterate, which is the best, in r and `here`.
+template <int D, class Equation>
+bool NewtonLocal<D, Equation>::iterate(const Vector& q, Vector& r, NewtonPoint<D>& here) const {
+  NewtonPoint<D> there(r.size());
+  evaluate(q, r, here);
+  for (int step = 0; step < kSteps && !here.within(kGoal); ++step) {
+    const Vector direction = here.jacobian.partialPivLu().solve(here.F);
+    if (!direction.allFinite()) break;
+    Vector next(r.size());
+    double length = 1.0;
+    for (int halving = 0; halving <= kHalvings; ++halving, length *= 0.5) {
+      next = r - length * direction;
+      evaluate(q, next, there);
+      if (there.F.norm() <= (1.0 - kSufficientDecrease * length) * here.F.norm()) break;
+    }
+    if (!(there.F.norm() < here.F.norm())) break;
+    r = next;
+    std::swap(here, there);
+  }
+  return here.within(kAccepted);
+}
+
+template <int D, class Equation>
+bool NewtonLocal<D, Equation>::solve(const Vector& q, Vector& r) const {
+  const double Wnn = problem_.W(0, 0);
+  Vector frictionless = q;
+  frictionless.setZero();
+  frictionless(0) = q(0) < 0.0 && Wnn > 0.0 ? -q(0) / Wnn : 0.0;
+  if (problem_.mu == 0.0) {
+    r = frictionless;
+    return q(0) >= 0.0 || Wnn > 0.0;
+  }
+  NewtonPoint<D> first(r.size()), second(r.size());
+  if (iterate(q, r, first)) return true;
+  const bool solved = iterate(q, frictionless, second);
+  if (solved || second.F.norm() < first.F.norm()) r = frictionless;
+  return solved;
+}
+
+template class NewtonLocal<2, AlartCurnierCone<2>>;
+template class NewtonLocal<3, AlartCurnierCone<3>>;
+template class NewtonLocal<6, AlartCurnierCone<6>>;
+template class NewtonLocal<Eigen::Dynamic, AlartCurnierCone<Eigen::Dynamic>>;
+template class NewtonLocal<2, FischerBurmeisterCone<2>>;
+template class NewtonLocal<3, FischerBurmeisterCone<3>>;
+template class NewtonLocal<6, FischerBurmeisterCone<6>>;
+template class NewtonLocal<Eigen::Dynamic, FischerBurmeisterCone<Eigen::Dynamic>>;
+
+}  // namespace conebench::solvers
