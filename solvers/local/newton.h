@@ -20,22 +20,21 @@ struct NewtonPoint {
 
   explicit NewtonPoint(Eigen::Index dim) : F(dim), jacobian(dim, dim) {}
 
-  bool within(double share) const { return miss <= share * scale; }
+  bool within(double share) const { return miss2 <= share * share * scale2; }
 
   Vector F;
-  Matrix jacobian;     ///< an element of the generalised Jacobian
-  double miss = 0.0;   ///< |r - P_K(r - u_hat / lambda)|, u_hat = u + theta |u_t| e_n
-  double scale = 1.0;  ///< max(|q| / lambda, |r|), which `miss` is compared with
+  Matrix jacobian;      ///< an element of the generalised Jacobian
+  double miss2 = 0.0;   ///< how far r is from a solution, squared, in units of r
+  double scale2 = 1.0;  ///< max(|q| / lambda, |r|)^2, which miss2 is compared with
 };
 
 /// One cone by a damped semismooth Newton on F(r) = 0, any d >= 2: the problem of ExactLocal. The
 /// frictionless answer has a closed form, which is all for mu = 0; other cones are iterated from r
 /// on entry and, if that fails, from there. A step is halved until the merit |F| falls. Whether an
-/// iterate is a solution is asked of its natural residual (NewtonPoint::miss), which does not know
-/// how F is scaled.
+/// iterate is a solution is asked of its miss, in units of r however F is scaled.
 ///
-/// Equation is default constructible and has set(problem) and evaluate(problem, u, r, point), u =
-/// W r + q, which fills in F and jacobian.
+/// Equation is default constructible and has, with u = W r + q: set(problem); evaluate(problem, u,
+/// r, point), which fills in F and jacobian; squared_miss(problem, u, r, point).
 /// No convergence proof: |F| can have local minima, and its Jacobian can be singular.
 /// Cost  one d x d factorisation a step. Allocates nothing for fixed D.
 template <int D, class Equation>

@@ -1,5 +1,7 @@
 #include "solvers/local/newton_ac.h"
 
+#include "solvers/local/newton_solve.h"
+
 namespace conebench::solvers {
 
 template <int D>
@@ -53,9 +55,15 @@ void AlartCurnierCone<D>::evaluate(const LocalProblem<D>& problem, const Vector&
   Jt.noalias() -= problem.mu * e * z_slope.transpose();
 }
 
-template class AlartCurnierCone<2>;
-template class AlartCurnierCone<3>;
-template class AlartCurnierCone<6>;
-template class AlartCurnierCone<Eigen::Dynamic>;
+template <int D>
+double AlartCurnierCone<D>::squared_miss(const LocalProblem<D>&, const Vector&, const Vector&,
+                                         const NewtonPoint<D>& point) const {
+  return point.F.squaredNorm();
+}
+
+template class NewtonLocal<2, AlartCurnierCone<2>>;
+template class NewtonLocal<3, AlartCurnierCone<3>>;
+template class NewtonLocal<6, AlartCurnierCone<6>>;
+template class NewtonLocal<Eigen::Dynamic, AlartCurnierCone<Eigen::Dynamic>>;
 
 }  // namespace conebench::solvers

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "problems/cone.h"
+#include "solvers/local/newton_solve.h"
+
 namespace conebench::solvers {
 namespace {
 
@@ -106,9 +109,19 @@ void FischerBurmeisterCone<D>::evaluate(const LocalProblem<D>& problem, const Ve
   point.jacobian -= dz;
 }
 
-template class FischerBurmeisterCone<2>;
-template class FischerBurmeisterCone<3>;
-template class FischerBurmeisterCone<6>;
-template class FischerBurmeisterCone<Eigen::Dynamic>;
+template <int D>
+double FischerBurmeisterCone<D>::squared_miss(const LocalProblem<D>& problem, const Vector& u,
+                                              const Vector& r, const NewtonPoint<D>&) const {
+  Vector u_hat = u;
+  problems::add_de_saxce(problem.theta, u_hat);
+  Vector projected = r - u_hat / problem.lambda;
+  problems::project(problem.mu, projected);
+  return (r - projected).squaredNorm();
+}
+
+template class NewtonLocal<2, FischerBurmeisterCone<2>>;
+template class NewtonLocal<3, FischerBurmeisterCone<3>>;
+template class NewtonLocal<6, FischerBurmeisterCone<6>>;
+template class NewtonLocal<Eigen::Dynamic, FischerBurmeisterCone<Eigen::Dynamic>>;
 
 }  // namespace conebench::solvers

@@ -17,6 +17,8 @@ namespace conebench::solvers {
 /// At the kinks (z on the cone's surface) z's smaller eigenvalue is floored at 1e-15 of its larger
 /// one, which is the derivative of a smoothed F and tends to an element of the generalised
 /// Jacobian; at x = y = 0 it is dx + dy, and |u_t| has derivative 0 at u_t = 0.
+/// The miss is the natural residual, |r - P_K(r - (u + theta |u_t| e_n) / lambda)|: |F| says little
+/// of a cone that is narrow.
 ///
 /// Source  Fukushima, Luo, Tseng, SIAM J. Optim. 12(2) (2002) 436-460 (not checked).
 template <int D>
@@ -27,6 +29,8 @@ class FischerBurmeisterCone {
   void set(const LocalProblem<D>& problem);
   void evaluate(const LocalProblem<D>& problem, const Vector& u, const Vector& r,
                 NewtonPoint<D>& point) const;
+  double squared_miss(const LocalProblem<D>& problem, const Vector& u, const Vector& r,
+                      const NewtonPoint<D>& point) const;
 
  private:
   double scale_ = 1.0;  // s
@@ -34,5 +38,10 @@ class FischerBurmeisterCone {
 
 template <int D>
 using NewtonFbLocal = NewtonLocal<D, FischerBurmeisterCone<D>>;
+
+extern template class NewtonLocal<2, FischerBurmeisterCone<2>>;
+extern template class NewtonLocal<3, FischerBurmeisterCone<3>>;
+extern template class NewtonLocal<6, FischerBurmeisterCone<6>>;
+extern template class NewtonLocal<Eigen::Dynamic, FischerBurmeisterCone<Eigen::Dynamic>>;
 
 }  // namespace conebench::solvers

@@ -1,21 +1,14 @@
-#include "solvers/local/newton.h"
+#pragma once
+
+// The members of NewtonLocal, for the files that instantiate it.
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <utility>
 
-#include "problems/cone.h"
-#include "solvers/local/newton_ac.h"
-#include "solvers/local/newton_fb.h"
+#include "solvers/local/newton.h"
 
 namespace conebench::solvers {
-namespace {
-
-constexpr int kSteps = 60, kHalvings = 12;
-constexpr double kSufficientDecrease = 1e-4;
-constexpr double kGoal = 1e-15;      // of the natural residual: no further steps
-constexpr double kAccepted = 1e-11;  // of the natural residual: a solution
-
-}  // namespace
 
 template <int D, class Equation>
 void NewtonLocal<D, Equation>::set(const Matrix& W, double lambda, double mu, double theta) {
@@ -27,18 +20,19 @@ template <int D, class Equation>
 void NewtonLocal<D, Equation>::evaluate(const Vector& q, const Vector& r,
                                         NewtonPoint<D>& point) const {
   const double lambda = problem_.lambda;
-  Vector u = problem_.W * r + q;
+  const Vector u = problem_.W * r + q;
   equation_.evaluate(problem_, u, r, point);
-  problems::add_de_saxce(problem_.theta, u);
-  Vector projected = r - u / lambda;
-  problems::project(problem_.mu, projected);
-  point.miss = (r - projected).norm();
-  point.scale = std::max(q.norm() / lambda, r.norm());
+  point.miss2 = equation_.squared_miss(problem_, u, r, point);
+  point.scale2 = std::max(q.squaredNorm() / (lambda * lambda), r.squaredNorm());
 }
 
 // Leaves the last iterate, which is the best, in r and `here`.
 template <int D, class Equation>
 bool NewtonLocal<D, Equation>::iterate(const Vector& q, Vector& r, NewtonPoint<D>& here) const {
+  constexpr int kSteps = 60, kHalvings = 12;
+  constexpr double kSufficientDecrease = 1e-4;
+  // Of the miss: no further steps; a solution.
+  constexpr double kGoal = 1e-15, kAccepted = 1e-11;
   NewtonPoint<D> there(r.size());
   evaluate(q, r, here);
   for (int step = 0; step < kSteps && !here.within(kGoal); ++step) {
@@ -74,14 +68,5 @@ bool NewtonLocal<D, Equation>::solve(const Vector& q, Vector& r) const {
   if (solved || second.F.norm() < first.F.norm()) r = frictionless;
   return solved;
 }
-
-template class NewtonLocal<2, AlartCurnierCone<2>>;
-template class NewtonLocal<3, AlartCurnierCone<3>>;
-template class NewtonLocal<6, AlartCurnierCone<6>>;
-template class NewtonLocal<Eigen::Dynamic, AlartCurnierCone<Eigen::Dynamic>>;
-template class NewtonLocal<2, FischerBurmeisterCone<2>>;
-template class NewtonLocal<3, FischerBurmeisterCone<3>>;
-template class NewtonLocal<6, FischerBurmeisterCone<6>>;
-template class NewtonLocal<Eigen::Dynamic, FischerBurmeisterCone<Eigen::Dynamic>>;
 
 }  // namespace conebench::solvers
