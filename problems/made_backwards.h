@@ -9,7 +9,8 @@ namespace conebench::problems {
 
 /// What a made-backwards problem should be like.
 enum class Family {
-  kGeneric,        ///< full row rank: fewer rows than dofs
+  kGeneric,        ///< two rows to three dofs; W is regular but for cones of many rows (d = 6)
+                   ///< that share their bodies
   kRankDeficient,  ///< W singular: about twice as many rows as dofs; r not unique
   kSingularBlock,  ///< some W_ii lose a tangential direction (a zero row of H)
   kSeveral,        ///< one wedged cone a body, with two solutions of different u

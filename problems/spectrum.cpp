@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -176,7 +177,11 @@ class Square {
       solve_upper(Y);
       X = orthonormal(Y);
     }
-    return X.leftCols((bound * Y.colwise().norm().array() > 1.0).count());
+    std::vector<int> small;
+    for (int k = 0; k < block; ++k) {
+      if (bound * Y.col(k).norm() > 1.0) small.push_back(k);
+    }
+    return X(Eigen::all, small);
   }
 
   static Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& X) {

@@ -32,9 +32,10 @@ constexpr int kLargestSpectrumRows = 40'000;
 /// (s_max / s_min of W), by Lanczos steps with the factor and its inverse: what they miss makes it
 /// too small, by a percent. Where M couples more than Inertia::kLargestBlock dofs, diag(M) stands
 /// for it there: the rank is right up to what is negligible, the condition is that of H diag(M)^-1
-/// H^T. Cost    two or more sparse QR factorisations (SuiteSparseQR where SuiteSparse's GPL parts
-/// are
-///         built in, else Eigen's, far slower), and solves with the factor.
+/// H^T.
+///
+/// Cost  two or more sparse QR factorisations (SuiteSparseQR where SuiteSparse's GPL parts are
+///       built in, else Eigen's, far slower), and solves with the factor.
 SpectrumAnswer spectrum(const Problem& problem);
 
 }  // namespace conebench::problems

@@ -20,23 +20,15 @@ import csv
 import json
 import math
 import pathlib
-import platform
 import random
-import subprocess
 import sys
 
-PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "conebench"
+from common import PROGRAM, machine, run_json, shown
+
 TOLERANCES = [f"1e-{k}" for k in range(4, 13)]
 FEWEST_CONES = 20
 COLUMNS = ["problem", "cones", "siconos", "tol", "siconos_eta", "siconos_s", "siconos_solve_s",
            "auto_eta", "auto_s", "ratio", "ratio_to_solve"]
-
-
-def run_json(command):
-    done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
-    if not done.stdout.strip():
-        raise RuntimeError(f"{command}: exit {done.returncode}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
 
 
 def solve(path, solver, tol, limit_s):
@@ -99,20 +91,14 @@ def summary(rows, key):
             f"auto faster on {wins} of {len(ratios)}")
 
 
-def shown(value):
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
-
-
 def write_markdown(rows, left_out, path, args):
-    cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo")
-                if line.startswith("model name")), platform.machine())
     with open(path, "w") as out:
         out.write("# `auto` against the fastest Siconos solver of each problem\n\n")
         out.write(f"`scripts/compare_siconos.py DATA OUT --target {args.target:g} "
                   f"--time-limit {args.time_limit} --repetitions {args.repetitions}`\n\n")
-        out.write(f"Machine: {cpu}, one thread. Both sides stop by their own test; every answer is "
-                  f"verified at eta <= {args.target:g}. Siconos at the loosest tolerance of 1e-4 ... "
-                  "1e-12 that gives such an answer, the fastest of its solvers chosen for each "
+        out.write(f"Machine: {machine()}, one thread. Both sides stop by their own test; every "
+                  f"answer is verified at eta <= {args.target:g}. Siconos at the loosest tolerance "
+                  "of 1e-4 ... 1e-12 that gives such an answer, the fastest of its solvers chosen for each "
                   "problem after the fact; `auto` chooses by itself. Minimum of interleaved runs.\n\n")
         out.write(f"Geometric mean of the ratios of time, auto / Siconos: {summary(rows, 'ratio')}.\n")
         out.write("With Siconos' set-up (its matrix, where a file gives M and H) free of charge: "

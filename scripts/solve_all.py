@@ -10,28 +10,20 @@ Writes OUT_STEM.csv and OUT_STEM.md. Exit 1 if the two etas differ anywhere by m
 """
 import argparse
 import csv
-import json
 import pathlib
 import platform
 import subprocess
 import sys
 import tempfile
 
-PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "conebench"
+from common import PROGRAM, machine, run_json, shown
+
 COLUMNS = ["problem", "cones", "solver", "status", "eta", "eta_checker", "attainable_eta",
            "iterations", "setup_s", "solve_s", "agree"]
 
 
-def run_json(command):
-    done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
-    if not done.stdout.strip():
-        raise RuntimeError(f"{command}: exit {done.returncode}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
-
-
 def problem_files(folder):
-    listed = run_json([PROGRAM, "problem", "list", folder, "--json"])
-    entries = listed["problems"] if isinstance(listed, dict) else listed
+    entries = run_json([PROGRAM, "problem", "list", folder, "--json"])
     return [pathlib.Path(entry["path"]) for entry in entries]
 
 
@@ -57,18 +49,13 @@ def solve(path, imported, solver, args, scratch):
             "setup_s": row.get("setup_s"), "solve_s": row["solve_s"], "agree": agree}
 
 
-def shown(value):
-    return f"{value:.3g}" if isinstance(value, float) else str(value)
-
-
 def write_markdown(rows, path, args):
     with open(path, "w") as out:
         out.write("# Every real problem file, each solver once\n\n")
         out.write(f"`scripts/solve_all.py DATA CHECKER OUT {' '.join('-s ' + s for s in args.solver)} "
                   f"--tol {args.tol} --time-limit {args.time_limit}`\n\n")
-        cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo")
-                    if line.startswith("model name")), platform.machine())
-        out.write(f"Machine: {cpu}, one core a solve, {platform.system()} {platform.machine()}. "
+        out.write(f"Machine: {machine()}, one core a solve, {platform.system()} "
+                  f"{platform.machine()}. "
                   "`eta` is this project's residual, `checker` the same by an independent program; "
                   "a residual is not an error bound. Times are solver time: residuals are judged "
                   "with the clock stopped.\n\n")

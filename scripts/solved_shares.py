@@ -12,23 +12,14 @@ Runs already in OUT_STEM.csv are not repeated. Writes OUT_STEM.csv, OUT_STEM.md 
 import argparse
 import concurrent.futures
 import csv
-import json
 import pathlib
-import platform
-import subprocess
 import sys
 
-PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "conebench"
+from common import PROGRAM, machine, run_json
+
 COLUMNS = ["problem", "cones", "solver", "status", "eta", "iterations", "setup_s", "solve_s",
            "notes"]
 EXPONENTS = range(2, 13)
-
-
-def run_json(command):
-    done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
-    if not done.stdout.strip():
-        raise RuntimeError(f"{command}: exit {done.returncode}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
 
 
 def solve(entry, solver, time_limit):
@@ -56,15 +47,14 @@ def counts(rows, solver):
 
 
 def write_markdown(rows, solvers, problems, path, args):
-    cpu = next((line.split(":", 1)[1].strip() for line in open("/proc/cpuinfo")
-                if line.startswith("model name")), platform.machine())
     with open(path, "w") as out:
         out.write("# Problems solved, against the tolerance\n\n")
         out.write(f"`scripts/solved_shares.py DATA OUT --time-limit {args.time_limit}"
                   f"{''.join(' -s ' + s for s in args.solver or [])}`\n\n")
-        out.write(f"Machine: {cpu}, one thread a solve, {args.jobs} at a time. {problems} distinct "
-                  "problems; a cell says how many of them the method brought to a verified eta of "
-                  f"at most the tolerance within {args.time_limit}; `takes` how many it accepts. "
+        out.write(f"Machine: {machine()}, one thread a solve, {args.jobs} at a time. "
+                  f"{problems} distinct problems; a cell says how many of them the method brought "
+                  f"to a verified eta of at most the tolerance within {args.time_limit}; `takes` "
+                  "how many it accepts. "
                   "Each method runs once, with its default parameters, asked for 1e-12 from the "
                   "start.\n\n![Solved share against tolerance](solved-shares.svg)\n\n")
         out.write("| method | takes | " + " | ".join(f"1e-{k}" for k in EXPONENTS) + " |\n")

@@ -42,14 +42,22 @@ struct Lane {
   bool over = false;  // diverged or stalled at the iterate it would start from again
 };
 
+constexpr GaussSeidelSettings kSkipping{.partial_sweeps = kPartialSweeps};
+
+// Every lane but Gauss-Seidel refuses W = 0.
+std::optional<std::string> automatic_refuses(const Problem& problem) {
+  const auto zero = refuse_zero_delassus(problem);
+  const auto sweeps = gauss_seidel_refuses(problem, kSkipping);
+  if (!zero || !sweeps) return std::nullopt;
+  return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
+}
+
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
-    const GaussSeidelSettings skipping{.partial_sweeps = kPartialSweeps};
-    if (!gauss_seidel_refuses(problem, skipping)) {
-      lanes_.push_back({"gs",
-                        [skipping](const Problem& p) { return make_gauss_seidel(p, skipping); },
-                        0.0, kFirstSweeps, 0, 0.1});
+    if (!gauss_seidel_refuses(problem, kSkipping)) {
+      lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); }, 0.0,
+                        kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
     lanes_.push_back(
@@ -180,10 +188,6 @@ class Automatic final : public Iteration {
 
 }  // namespace
 
-std::unique_ptr<Iteration> make_automatic(const Problem& problem, double tol) {
-  return std::make_unique<Automatic>(problem, tol);
-}
-
 Method automatic() {
   Method method{.name = "auto",
                 .kind = Kind::kMethod,
@@ -193,11 +197,10 @@ Method automatic() {
   method.make = [method](const Values& values) {
     auto run = [](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
                   Monitor& monitor) {
-      const std::unique_ptr<Iteration> iteration = make_automatic(problem, stop.tol);
-      return drive(*iteration, problem, stop, guess, monitor);
+      Automatic iteration(problem, stop.tol);
+      return drive(iteration, problem, stop, guess, monitor);
     };
-    return make_checked_solver(
-        method, values, [](const Problem&) { return std::nullopt; }, run);
+    return make_checked_solver(method, values, automatic_refuses, run);
   };
   return method;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/iteration.h"
+#include "solvers/method.h"
 
 namespace conebench::solvers {
 
@@ -8,8 +8,8 @@ namespace conebench::solvers {
 /// take turns on one problem, each for as long as it promises to be the first to finish.
 ///
 /// Lanes     gs[skip=10], newton-ac, ipm, aclm; each is made when its first turn comes and keeps
-/// its
-///           factorisations. One that refuses the problem is left out.
+///           its factorisations. One that refuses the problem is left out; a problem that all
+///           refuse is refused.
 /// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
 ///           takes the same turns in every run.
 /// Turn      lasts until the lane has done half as much work again as before it (at least one
@@ -30,7 +30,5 @@ namespace conebench::solvers {
 /// beforehand; progress does. Aims at a small multiple of the best lane's time; there is no proof.
 /// Own test (StopTest::kOwn)  that of the lane, verified with eta.
 Method automatic();
-
-std::unique_ptr<Iteration> make_automatic(const problems::Problem& problem, double tol);
 
 }  // namespace conebench::solvers

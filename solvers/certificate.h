@@ -48,7 +48,7 @@ class InfeasibilitySearch {
   ~InfeasibilitySearch();
 
   /// kInfeasible with the proof; kStalled when a velocity was found that the second problem allows,
-  /// so that there is nothing to prove; kDiverged.
+  /// so that there is nothing to prove, or when the method that solves it stalls; kDiverged.
   Iteration::State advance();
   const Eigen::VectorXd& proof() const;  ///< y, proves_infeasible; rows() entries
   double step_work_s() const;            ///< of one advance() (Iteration::work_s)

@@ -18,8 +18,10 @@ using Ipopt::Number;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
 using Vector = Eigen::Map<Eigen::VectorXd>;
 
-// Ipopt takes bounds beyond this for none.
+// Ipopt takes bounds of 1e19 and more for none.
 constexpr double kNoBound = 2e19;
+// A cold start is moved this far inside its bounds.
+constexpr double kColdPush = 10.0;
 // How far inside its bounds a warm start is moved, relative.
 constexpr double kWarmPush = 1e-12;
 
@@ -255,8 +257,8 @@ void set_options(const IpoptRun& run, bool warm, Ipopt::OptionsList& options) {
   options.SetNumericValue("bound_relax_factor", 0.0);
   options.SetIntegerValue("max_iter", run.max_iterations);
   options.SetNumericValue("mu_init", run.barrier);
-  options.SetNumericValue("bound_push", run.push);
-  options.SetNumericValue("slack_bound_push", run.push);
+  options.SetNumericValue("bound_push", kColdPush);
+  options.SetNumericValue("slack_bound_push", kColdPush);
   if (!warm) return;
   options.SetStringValue("warm_start_init_point", "yes");
   for (const char* push :
@@ -274,11 +276,6 @@ IpoptEnd end_of(Ipopt::ApplicationReturnStatus status) {
       return IpoptEnd::kSolved;
     case Ipopt::User_Requested_Stop:
       return IpoptEnd::kStopped;
-    case Ipopt::Maximum_Iterations_Exceeded:
-    case Ipopt::Maximum_CpuTime_Exceeded:
-      return IpoptEnd::kIterationLimit;
-    case Ipopt::Infeasible_Problem_Detected:
-      return IpoptEnd::kInfeasible;
     default:
       return IpoptEnd::kFailed;
   }

@@ -47,16 +47,13 @@ struct ProgramPoint {
 struct IpoptRun {
   double tol = 1e-8;      ///< on Ipopt's own scaled optimality error [-]
   double barrier = 10.0;  ///< the first barrier parameter [-]
-  double push = 10.0;     ///< a cold start is moved this far inside its bounds
   int max_iterations = 200;
 };
 
 enum class IpoptEnd {
   kSolved,
-  kStopped,         ///< the watcher said so
-  kIterationLimit,  ///< of the run
-  kInfeasible,      ///< converged to a point of local infeasibility
-  kFailed,          ///< any other end: restoration failed, a NaN appeared, steps too small
+  kStopped,  ///< the watcher said so
+  kFailed,   ///< any other end: iteration limit, local infeasibility, restoration failed, a NaN
 };
 
 /// Called once an iteration, the starting point being iteration 0 of each run; false stops. In

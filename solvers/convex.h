@@ -36,6 +36,9 @@ using MakeConvex = std::function<std::unique_ptr<ConvexIteration>(const problems
 /// solutions as fixed points. With it, convex_error is eta.
 Eigen::VectorXd de_saxce_shift(const problems::Problem& problem, const Eigen::VectorXd& u);
 
+/// Replaces each r_i by its projection on K_mu.
+void project_on_cones(const problems::Problem& problem, Eigen::VectorXd& r);
+
 /// error() for given r and u = W r + q.
 double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shift,
                     const Eigen::VectorXd& r, const Eigen::VectorXd& u);

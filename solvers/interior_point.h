@@ -21,7 +21,9 @@ namespace conebench::solvers {
 /// Start     from (r, u): z = r - (u + t e_n) / lambda splits into r = P_K(z), x = lambda (r - z),
 ///           both pushed into the interior along e_n by ten times their violation.
 /// Accuracy  where r_i = x_i = 0 for some cone, error() is the square root of the gap: 1e-8 to 1e-9
-///           is what doubles allow. Elsewhere it reaches rounding.
+///           is what doubles allow. It can stall elsewhere too: in results/published/methods.md
+///           `ipm` and `aclm-ipm` leave 2 of 30 ordinary problems each at an eta between 1e-8 and
+///           2e-6, one of the two at such a cone.
 ///
 /// With `coulomb` the shift is no longer given: x = u + theta |u_t|_eps e_n, |a|_eps = sqrt(|a|^2 +
 /// eps^2), is the De Saxce term as an unknown, so that dx = C W dr + e with C_i = I + theta e_n

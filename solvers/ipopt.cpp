@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "problems/residual.h"
-#include "solvers/cone_program.h"
+#include "solvers/convex.h"
 #include "solvers/dimensionless.h"
+#include "solvers/ipopt_runs.h"
 
 namespace conebench::solvers {
 namespace {
@@ -21,13 +21,7 @@ using Entries = std::vector<Eigen::Triplet<double, int>>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Of the cones, in units where U is 100.
-constexpr double kEps = 1e-12;
-// Ipopt's tolerance: the gap of a cone at its tip is the square of its residual. Below the least,
-// rounding decides; each run after one that was not good enough asks for a hundredth.
-constexpr double kLargestGap = 1e-2, kSmallGap = 1e-14, kLeastGap = 1e-20, kNextGap = 1e-2;
 constexpr int kRunIterations = 300;
-constexpr int kRestarts = 2;
 
 // The variables: v, r, then u with p in place of u_n, then s, one entry a cone.
 struct Layout {
@@ -100,7 +94,7 @@ ConeProgram pose(const Problem& problem, const Dimensionless& scaled, const Layo
                       .b = Eigen::VectorXd(at.dofs + at.rows),
                       .lower = Eigen::VectorXd::Constant(at.size(), -kInfinity),
                       .upper = Eigen::VectorXd::Constant(at.size(), kInfinity),
-                      .eps = kEps};
+                      .eps = kIpoptEps};
   program.b.head(at.dofs) = scaled.f;
   program.b.tail(at.rows) = at.dofs > 0 ? scaled.w : scaled.q;
   for (int i = 0; i < problem.cone_count(); ++i) {
@@ -137,28 +131,18 @@ class OneShot {
  private:
   Status run() {
     ProgramPoint point{start(result_.r)};
-    const double wanted = std::pow(Dimensionless::kRateScale * stop_.tol, 2.0);
-    IpoptRun next{.tol = std::clamp(wanted, kSmallGap, kLargestGap),
-                  .max_iterations = kRunIterations};
-    for (int failures = 0; failures <= kRestarts && next.tol >= kLeastGap;) {
-      const IpoptEnd end = run_once(next, point);
-      if (end == IpoptEnd::kStopped) return monitor_.status();
+    IpoptRuns runs(kRunIterations);
+    runs.aim_at(stop_.tol);
+    while (!runs.over()) {
+      if (run_once(runs, point) == IpoptEnd::kStopped) return monitor_.status();
       if (verified()) return Status::kConverged;
-      if (end == IpoptEnd::kSolved) {
-        next.barrier = next.tol;
-        next.tol *= kNextGap;
-      } else {
-        ++failures;
-        next.barrier = IpoptRun{}.barrier;
-        point = {std::move(point.x)};
-      }
     }
     return monitor_.conclude(Status::kStalled, result_.iterations, result_.r);
   }
 
-  IpoptEnd run_once(const IpoptRun& run, ProgramPoint& point) {
+  IpoptEnd run_once(IpoptRuns& runs, ProgramPoint& point) {
     bool started = false;
-    const IpoptEnd end = run_ipopt(program_, run, point, [&](const Eigen::VectorXd& x) {
+    const IpoptEnd end = runs.run(program_, point, [&](const Eigen::VectorXd& x) {
       if (!std::exchange(started, true)) return true;  // where the last run ended
       read_reactions(x);
       return monitor_.check(++result_.iterations, result_.r) == Verdict::kGoOn;
@@ -189,11 +173,7 @@ class OneShot {
 
   void read_reactions(const Eigen::VectorXd& x) {
     result_.r = x.segment(at_.r(), at_.rows).cwiseProduct(scaled_.force);
-    for (int i = 0; i < at_.cones; ++i) {
-      const Cone& cone = problem_.cones()[static_cast<std::size_t>(i)];
-      auto part = result_.r.segment(problem_.start(i), cone.dim);
-      problems::project(cone.mu, part);
-    }
+    project_on_cones(problem_, result_.r);
   }
 
   // The gap per cone, in units of U^2 / max lambda.
@@ -201,7 +181,7 @@ class OneShot {
     const double unit = Dimensionless::kRateScale * Dimensionless::kRateScale;
     const double gap = x.dot(program_.Q * x) / (unit * std::max(at_.cones, 1));
     result_.notes = {fmt::format("De Saxce gap {:.1e} a cone, eps {:.0e} U", gap,
-                                 kEps / Dimensionless::kRateScale)};
+                                 kIpoptEps / Dimensionless::kRateScale)};
   }
 
   const Problem& problem_;

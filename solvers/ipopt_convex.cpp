@@ -1,12 +1,10 @@
 #include "solvers/ipopt_convex.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solvers/aclm.h"
-#include "solvers/cone_program.h"
 #include "solvers/dimensionless.h"
+#include "solvers/ipopt_runs.h"
 
 namespace conebench::solvers {
 namespace {
@@ -16,13 +14,7 @@ using problems::Problem;
 using problems::SparseMatrix;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Of the cones, in units where U is 100.
-constexpr double kEps = 1e-12;
-// Ipopt's tolerance; r . u_hat of a cone at its tip is the square of its residual. Below the least,
-// rounding decides; each run after one that was not good enough asks for a hundredth.
-constexpr double kLargestGap = 1e-2, kSmallGap = 1e-14, kLeastGap = 1e-20, kNextGap = 1e-2;
 constexpr int kRunIterations = 100;
-constexpr int kRestarts = 2;
 
 SparseMatrix lower_of(const SparseMatrix& matrix) { return matrix.triangularView<Eigen::Lower>(); }
 
@@ -78,7 +70,7 @@ class IpoptConvex final : public ConvexIteration {
                 .b = scaled_.f,
                 .lower = Eigen::VectorXd::Constant(size, -kInfinity),
                 .upper = Eigen::VectorXd::Constant(size, kInfinity),
-                .eps = kEps};
+                .eps = kIpoptEps};
     for (int i = 0; i < problem.cone_count(); ++i) {
       constrain(cone(i), dofs_ + problem.start(i), program_);
     }
@@ -95,28 +87,17 @@ class IpoptConvex final : public ConvexIteration {
     point_.x.resize(program_.variables());
     point_.x.tail(problem_.rows()) = r.cwiseQuotient(scaled_.force);
     if (dofs_ > 0) point_.x.head(dofs_) = problem_.velocity(r).cwiseQuotient(scaled_.velocity);
-    run_ = {.tol = kInfinity, .max_iterations = kRunIterations};
-    failures_ = 0;
+    runs_ = IpoptRuns(kRunIterations);
     take(r);
   }
 
   Iteration::State advance(double tolerance) override {
     if (error_ <= tolerance) return Iteration::State::kRunning;
-    const double wanted = std::pow(Dimensionless::kRateScale * tolerance, 2.0);
-    run_.tol = std::min(run_.tol, std::clamp(wanted, kSmallGap, kLargestGap));
-    if (failures_ > kRestarts || run_.tol < kLeastGap) return Iteration::State::kStalled;
-    const IpoptEnd end =
-        run_ipopt(program_, run_, point_, [](const Eigen::VectorXd&) { return true; });
+    runs_.aim_at(tolerance);
+    if (runs_.over()) return Iteration::State::kStalled;
+    runs_.run(program_, point_, [](const Eigen::VectorXd&) { return true; });
     if (!point_.x.allFinite()) return Iteration::State::kDiverged;
     take(point_.x.tail(problem_.rows()).cwiseProduct(scaled_.force));
-    if (end == IpoptEnd::kSolved) {
-      run_.barrier = run_.tol;
-      run_.tol *= kNextGap;
-    } else {
-      ++failures_;
-      run_.barrier = IpoptRun{}.barrier;
-      point_ = {std::move(point_.x)};
-    }
     return Iteration::State::kRunning;
   }
 
@@ -130,10 +111,7 @@ class IpoptConvex final : public ConvexIteration {
 
   void take(const Eigen::VectorXd& r) {
     r_ = r;
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      auto part = r_.segment(problem_.start(i), cone(i).dim);
-      problems::project(cone(i).mu, part);
-    }
+    project_on_cones(problem_, r_);
     u_ = problem_.rate(r_);
     error_ = convex_error(problem_, shift_, r_, u_);
   }
@@ -143,8 +121,7 @@ class IpoptConvex final : public ConvexIteration {
   int dofs_;
   ConeProgram program_;
   ProgramPoint point_;
-  IpoptRun run_;
-  int failures_ = 0;
+  IpoptRuns runs_{kRunIterations};
   Eigen::VectorXd shift_, r_, u_;
   double error_ = kInfinity;
 };

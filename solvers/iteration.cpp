@@ -29,7 +29,7 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
       }
       next_verification = result.iterations + 1 + result.iterations / 10;
     }
-    if (monitor.check(result.iterations, iteration.r()) == Verdict::kStop) {
+    if (monitor.check(result.iterations, iteration.r(), iteration.work_s()) == Verdict::kStop) {
       result.status = monitor.status();
       break;
     }

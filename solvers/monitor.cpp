@@ -24,13 +24,8 @@ double Monitor::elapsed_s() const {
   return std::chrono::duration<double>(Clock::now() - start_ - paused_).count();
 }
 
-bool Monitor::due(std::int64_t iteration) const {
-  return (stop_.test == StopTest::kCommon && look_is_due(iteration)) ||
-         limit(iteration).has_value();
-}
-
-bool Monitor::look_is_due(std::int64_t iteration) const {
-  return iteration >= next_look_ || elapsed_s() >= next_look_s_;
+bool Monitor::look_is_due(std::int64_t iteration, double work_s) const {
+  return iteration >= next_look_ || (work_s > 0.0 && work_s >= next_look_work_s_);
 }
 
 std::optional<Status> Monitor::limit(std::int64_t iteration) const {
@@ -39,7 +34,7 @@ std::optional<Status> Monitor::limit(std::int64_t iteration) const {
   return std::nullopt;
 }
 
-double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r) {
+double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r, double work_s) {
   const auto pause = Clock::now();
   const double time_s = std::chrono::duration<double>(pause - start_ - paused_).count();
   const double eta = problems::evaluate_eta(problem_, r);
@@ -50,15 +45,15 @@ double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r) {
   }
   next_look_ = std::max(
       iteration + 1, static_cast<std::int64_t>(std::ceil(1.02 * static_cast<double>(iteration))));
-  next_look_s_ = 1.02 * time_s;
+  next_look_work_s_ = 1.02 * work_s;
   paused_ += Clock::now() - pause;
   return eta;
 }
 
-Verdict Monitor::check(std::int64_t iteration, const Eigen::VectorXd& r) {
+Verdict Monitor::check(std::int64_t iteration, const Eigen::VectorXd& r, double work_s) {
   const std::optional<Status> reached = limit(iteration);
-  if (stop_.test == StopTest::kCommon && (reached || look_is_due(iteration))) {
-    const double eta = look(iteration, r);
+  if (stop_.test == StopTest::kCommon && (reached || look_is_due(iteration, work_s))) {
+    const double eta = look(iteration, r, work_s);
     // The residual comes first: an answer that is good enough at the limit has converged.
     if (eta <= stop_.tol) {
       status_ = Status::kConverged;
@@ -76,7 +71,7 @@ Verdict Monitor::check(std::int64_t iteration, const Eigen::VectorXd& r) {
 
 Status Monitor::conclude(Status why, std::int64_t iteration, const Eigen::VectorXd& r) {
   status_ = why;
-  if (stop_.test == StopTest::kCommon && look(iteration, r) <= stop_.tol) {
+  if (stop_.test == StopTest::kCommon && look(iteration, r, 0.0) <= stop_.tol) {
     status_ = Status::kConverged;
   }
   return status_;

@@ -22,7 +22,8 @@ struct CurvePoint {
 /// A method calls check() with its iterate after every iteration (and once before the first).
 /// With StopTest::kCommon, eta is computed while the clock stands still: every method stops on the
 /// same test and none pays for it. To bound the cost of judging, eta is looked at when the
-/// iteration count or the time has grown by 2 % since the last look (every iteration up to 50).
+/// iteration count or the work has grown by 2 % since the last look (every iteration up to 50);
+/// the clock has no say in it, so that two runs stop at the same iterate.
 /// With StopTest::kOwn only the limits are watched.
 class Monitor {
  public:
@@ -36,11 +37,8 @@ class Monitor {
   /// setup_s + solve_s, whatever starting and watching that process took.
   void set_clock(double setup_s, double solve_s);
 
-  /// True when the next check() at this iteration will look at r. A method that keeps r in another
-  /// form asks first, to spare the conversion.
-  bool due(std::int64_t iteration) const;
-
-  Verdict check(std::int64_t iteration, const Eigen::VectorXd& r);
+  /// `work_s`: Iteration::work_s(), where iterations differ in cost.
+  Verdict check(std::int64_t iteration, const Eigen::VectorXd& r, double work_s = 0.0);
 
   /// For a method that stops for a reason of its own: looks at r once more (kCommon) and answers
   /// kConverged if it is good enough, else `why`.
@@ -60,9 +58,9 @@ class Monitor {
  private:
   using Clock = std::chrono::steady_clock;
 
-  double look(std::int64_t iteration, const Eigen::VectorXd& r);
+  double look(std::int64_t iteration, const Eigen::VectorXd& r, double work_s);
   std::optional<Status> limit(std::int64_t iteration) const;
-  bool look_is_due(std::int64_t iteration) const;
+  bool look_is_due(std::int64_t iteration, double work_s) const;
 
   const problems::Problem& problem_;
   Stop stop_;
@@ -70,7 +68,7 @@ class Monitor {
   Clock::duration paused_{};
   double setup_s_ = 0.0;
   std::int64_t next_look_ = 0;
-  double next_look_s_ = 0.0;
+  double next_look_work_s_ = 0.0;
   Status status_ = Status::kStalled;
   Eigen::VectorXd best_;
   double best_eta_ = std::numeric_limits<double>::infinity();

@@ -83,16 +83,9 @@ class NloptConvex final : public ConvexIteration {
  private:
   const Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
 
-  void project(Eigen::VectorXd& r) const {
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      auto part = r.segment(problem_.start(i), cone(i).dim);
-      problems::project(cone(i).mu, part);
-    }
-  }
-
   void take(const Eigen::VectorXd& r) {
     r_ = r;
-    project(r_);
+    project_on_cones(problem_, r_);
     u_ = problem_.rate(r_);
     error_ = convex_error(problem_, shift_, r_, u_);
   }

@@ -24,8 +24,8 @@ struct NloptSettings {
 ///
 /// One advance() is one run of NLopt of at most 300 evaluations or 1 s, stopped when error() is
 /// small enough; the library's own memory (BFGS matrix, asymptotes) does not survive it. A time
-/// limit is seen between runs only. Memory  cones x rows numbers (NLopt's constraint Jacobians are
-/// dense), slsqp about 3 rows^2
+/// limit is seen between runs only.
+/// Memory  cones x rows numbers (NLopt's constraint Jacobians are dense), slsqp about 3 rows^2
 ///         more.
 /// Source  Kraft 1988 (slsqp); Svanberg, SIAM J. Optim. 12(2) (2002) 555-573 (mma, ccsaq); Birgin,
 ///         Martinez, Optim. Methods Softw. 23(2) (2008) (auglag) (none checked).

@@ -10,10 +10,10 @@ namespace conebench::solvers {
 /// siconos:nsn-fb, siconos:vi-eg, siconos:prox, siconos:aclmfp, siconos:admm, and the model
 /// siconos:soclcp (associated law). Empty in a build without Siconos.
 ///
-/// They get the reduced form (W, q), W as 3 x 3 blocks; every cone of dimension 3 (siconos:nsgs
-/// also 2) and Coulomb's law (siconos:soclcp: any theta, treated as 0). Every solve runs in a child
-/// process, since Siconos aborts on some problems: a crash is a result (kDiverged, with a note), at
-/// the time limit the child is killed and r is as far as it got.
+/// They get the reduced form (W, q), W as blocks of a cone by a cone; every cone of dimension 3
+/// (siconos:nsgs also 2) and Coulomb's law (siconos:soclcp: any theta, treated as 0). Every solve
+/// runs in a child process, since Siconos aborts on some problems: a crash is a result (kDiverged,
+/// with a note), at the time limit the child is killed and r is as far as it got.
 ///
 /// Stopping  Siconos stops on its own error, |r - P_K(r - u_hat)| in its own units over the largest
 ///           of |q|, |r|, |u|; at tolerance 1e-6 eta is 1e-6 to 0.5. With StopTest::kOwn that

@@ -3,34 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
-#include <iostream>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "harness/commands/commands.h"
+#include "harness/commands/problem_proofs.h"
+#include "harness/commands/text_output.h"
 #include "harness/interrupt.h"
-#include "harness/pool.h"
 #include "harness/units.h"
 #include "harness/where.h"
-#include "harness/worker.h"
 #include "problems/collection.h"
 #include "problems/error.h"
 #include "problems/fclib.h"
 #include "problems/load.h"
 #include "problems/residual.h"
-#include "problems/spectrum.h"
-#include "results/text.h"
-#include "solvers/certificate.h"
 
 namespace conebench::harness {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using problems::Collection;
 using problems::CollectionEntry;
 using problems::InputError;
@@ -42,36 +34,6 @@ struct Options {
   std::string where, output, format = "conebench", time_limit = "10s";
   bool json = false, standard = false, certificate = false;
 };
-
-// Text columns to the left, all others to the right, as wide as they need to be.
-void print_table(const std::vector<std::vector<std::string>>& rows, std::size_t text_columns) {
-  std::vector<std::size_t> width;
-  for (const auto& row : rows) {
-    width.resize(std::max(width.size(), row.size()));
-    for (std::size_t k = 0; k < row.size(); ++k) width[k] = std::max(width[k], row[k].size());
-  }
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      line += k < text_columns ? fmt::format("{:<{}}  ", row[k], width[k])
-                               : fmt::format("{:>{}}  ", row[k], width[k]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
-  }
-}
-
-std::string dumped(const Json& json, int indent) {
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
-
-void print_json(const Json& json) { fmt::print("{}\n", dumped(json, 1)); }
-
-std::string text_of(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
-  if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
-  return value.dump();
-}
 
 std::string range_text(const Json& facts, const std::string& name) {
   const double low = facts.at(name + "_min").get<double>();
@@ -270,96 +232,6 @@ void index(const Options& options, int& exit_code) {
     fmt::print("{}: {} problem(s)\n", (fs::path(path) / Collection::kFileName).string(),
                collection.entries().size());
   }
-}
-
-Json find_existence(const std::string& file, double time_limit_s) {
-  const solvers::Certificate found =
-      solvers::certify(problems::load_problem(file).problem, time_limit_s);
-  return {{"existence", solvers::to_string(found.verdict)},
-          {"existence_margin", found.margin},
-          {"existence_text", found.text}};
-}
-
-Json find_rank(const std::string& file, double) {
-  const problems::SpectrumAnswer answer = problems::spectrum(problems::load_problem(file).problem);
-  if (!answer.spectrum) return {{"rank_missing", answer.reason}};
-  return {{"rank", answer.spectrum->rank},
-          {"null_space", answer.spectrum->null_space},
-          {"condition", answer.spectrum->condition}};
-}
-
-// What is found out of each problem beside its features, and by whom. Each in a process of its own:
-// memory and time are only known afterwards.
-struct Finding {
-  Json (*find)(const std::string& file, double time_limit_s);
-  const char* missing;  // key of the reason why there is nothing
-  const char* time;     // key of the time of the whole process
-};
-constexpr std::array kFindings{Finding{find_existence, "existence_text", "existence_s"},
-                               Finding{find_rank, "rank_missing", "rank_s"}};
-
-Json nothing_found(const Json& facts) {
-  return {{"path", facts.at("path")}, {"content_sha256", facts.at("content_sha256")},
-          {"existence", "unknown"},   {"existence_margin", nullptr},
-          {"existence_text", ""},     {"rank", nullptr},
-          {"null_space", nullptr},    {"condition", nullptr},
-          {"rank_missing", ""}};
-}
-
-void add_finding(const Finding& finding, const ChildOutcome& outcome, Json& proof) {
-  Json found = Json::parse(outcome.output, nullptr, false);
-  if (found.is_discarded()) {
-    found = {{finding.missing, "ended without an answer: " + describe_end(outcome)}};
-  }
-  proof.update(found);
-  proof[finding.time] = outcome.wall_s;
-}
-
-// One line of a table whose first column is as wide as `width`.
-void print_proof_row(std::size_t width, const std::array<std::string, 7>& cells) {
-  fmt::print("{:<{}}  {:<8}  {:>6}  {:>10}  {:>9}  {:>8}  {}\n", cells[0], width, cells[1],
-             cells[2], cells[3], cells[4], cells[5], cells[6]);
-  std::fflush(stdout);
-}
-
-void print_proof(std::size_t width, const Json& proof) {
-  const bool ranked = proof["rank"].is_number();
-  const double time_s = proof["existence_s"].get<double>() + proof["rank_s"].get<double>();
-  const std::string no_rank = text_of(proof["rank_missing"]);
-  print_proof_row(
-      width, {text_of(proof["path"]), text_of(proof["existence"]),
-              ranked ? text_of(proof["rank"]) : "-", ranked ? text_of(proof["null_space"]) : "-",
-              ranked ? fmt::format("{:.2e}", proof["condition"].get<double>()) : "-",
-              results::format_time(time_s),
-              text_of(proof["existence_text"]) + (ranked ? "" : "; no rank: " + no_rank)});
-}
-
-// Existence, rank and condition of each problem; a table of them, printed as they come, unless as
-// JSON.
-Json prove_all(const std::vector<Json>& entries, double time_limit_s, bool quiet, int& exit_code) {
-  std::size_t width = 0;
-  for (const Json& entry : entries) width = std::max(width, text_of(entry.at("path")).size());
-  if (!quiet) {
-    print_proof_row(width,
-                    {"problem", "solution", "rank", "null space", "condition", "time", "because"});
-  }
-  Json proofs = Json::array();
-  const auto make = [&](std::size_t i) -> Job {
-    const auto find = kFindings[i % kFindings.size()].find;
-    const std::string file = text_of(entries[i / kFindings.size()].at("path"));
-    return {.work = [=] { return dumped(find(file, time_limit_s), -1); },
-            .limits = {.wall_s = default_hard_limit_s(time_limit_s)}};
-  };
-  const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
-    const std::size_t which = i % kFindings.size();
-    if (which == 0) proofs.push_back(nothing_found(entries[i / kFindings.size()]));
-    add_finding(kFindings[which], outcome, proofs.back());
-    if (which + 1 == kFindings.size() && !quiet) print_proof(width, proofs.back());
-  };
-  if (!run_pool(kFindings.size() * entries.size(), 1, {.make = make, .done = done, .tick = {}})) {
-    exit_code = kInterruptedExit;
-  }
-  return proofs;
 }
 
 Json spread(const std::vector<Json>& entries, const std::string& key) {

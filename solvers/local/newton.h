@@ -1,10 +1,16 @@
 #pragma once
 
-#include <Eigen/Dense>
-#include <algorithm>
-#include <cmath>
+#include <Eigen/Core>
 
 namespace conebench::solvers {
+
+/// The data of ExactLocal's problem, d >= 2.
+template <int D>
+struct LocalProblem {
+  Eigen::Matrix<double, D, D> W;
+  double lambda = 1.0;  ///< |W|_2
+  double mu = 0.0, theta = 0.0;
+};
 
 /// F(r) = 0 on one cone, at one r.
 template <int D>
@@ -14,62 +20,42 @@ struct NewtonPoint {
 
   explicit NewtonPoint(Eigen::Index dim) : F(dim), jacobian(dim, dim) {}
 
-  bool within(double share) const { return F.norm() <= share * scale; }
+  bool within(double share) const { return miss2 <= share * share * scale2; }
 
   Vector F;
-  Matrix jacobian;     ///< an element of the generalised Jacobian
-  double scale = 1.0;  ///< the size that |F| is compared with
+  Matrix jacobian;      ///< an element of the generalised Jacobian
+  double miss2 = 0.0;   ///< how far r is from a solution, squared, in units of r
+  double scale2 = 1.0;  ///< max(|q| / lambda, |r|)^2, which miss2 is compared with
 };
 
-/// Semismooth Newton from r with the merit |F|: each step is halved until the merit falls.
-/// `evaluate(r, point)` fills in a NewtonPoint. Leaves the best iterate in r and answers whether it
-/// is a solution: |F| <= kAccepted scale, after steps until |F| <= kGoal scale or no step helps.
-template <int D, class Evaluate>
-bool damped_newton(const Evaluate& evaluate, Eigen::Matrix<double, D, 1>& r) {
-  constexpr int kSteps = 60, kHalvings = 12;
-  constexpr double kGoal = 1e-15, kAccepted = 1e-11, kSufficientDecrease = 1e-4;
-  NewtonPoint<D> here(r.size()), there(r.size());
-  evaluate(r, here);
-  for (int step = 0; step < kSteps && !here.within(kGoal); ++step) {
-    const Eigen::Matrix<double, D, 1> direction = here.jacobian.partialPivLu().solve(here.F);
-    if (!direction.allFinite()) break;
-    Eigen::Matrix<double, D, 1> next(r.size());
-    double length = 1.0;
-    for (int halving = 0; halving <= kHalvings; ++halving, length *= 0.5) {
-      next = r - length * direction;
-      evaluate(next, there);
-      if (there.F.norm() <= (1.0 - kSufficientDecrease * length) * here.F.norm()) break;
-    }
-    if (!(there.F.norm() < here.F.norm())) break;
-    r = next;
-    std::swap(here, there);
-  }
-  return here.within(kAccepted);
-}
+/// One cone by a damped semismooth Newton on F(r) = 0, any d >= 2: the problem of ExactLocal. The
+/// frictionless answer has a closed form, which is all for mu = 0; other cones are iterated from r
+/// on entry and, if that fails, from there. A step is halved until the merit |F| falls. Whether an
+/// iterate is a solution is asked of its miss, in units of r however F is scaled.
+///
+/// Equation is default constructible and has, with u = W r + q: set(problem); evaluate(problem, u,
+/// r, point), which fills in F and jacobian; squared_miss(problem, u, r, point).
+/// No convergence proof: |F| can have local minima, and its Jacobian can be singular.
+/// Cost  one d x d factorisation a step. Allocates nothing for fixed D.
+template <int D, class Equation>
+class NewtonLocal {
+ public:
+  using Vector = Eigen::Matrix<double, D, 1>;
+  using Matrix = Eigen::Matrix<double, D, D>;
 
-/// What the local Newtons share: one cone of d >= 2, u = W r + q. The frictionless answer has a
-/// closed form, which is all for mu = 0; other cones are iterated from r on entry and, if that
-/// fails, from there. r is left at the better end; false if neither is a solution.
-template <int D, class Evaluate>
-bool solve_cone_by_newton(const Evaluate& evaluate, double Wnn, double mu,
-                          const Eigen::Matrix<double, D, 1>& q, Eigen::Matrix<double, D, 1>& r) {
-  Eigen::Matrix<double, D, 1> frictionless = q;
-  frictionless.setZero();
-  frictionless(0) = q(0) < 0.0 && Wnn > 0.0 ? -q(0) / Wnn : 0.0;
-  if (mu == 0.0) {
-    r = frictionless;
-    return q(0) >= 0.0 || Wnn > 0.0;
-  }
-  if (damped_newton<D>(evaluate, r)) return true;
-  if (damped_newton<D>(evaluate, frictionless)) {
-    r = frictionless;
-    return true;
-  }
-  NewtonPoint<D> first(r.size()), second(r.size());
-  evaluate(r, first);
-  evaluate(frictionless, second);
-  if (second.F.norm() < first.F.norm()) r = frictionless;
-  return false;
-}
+  /// As ExactLocal::set.
+  void set(const Matrix& W, double lambda, double mu, double theta);
+  const Matrix& W() const { return problem_.W; }
+
+  /// Improves r. False if it is not a solution then: the best iterate.
+  bool solve(const Vector& q, Vector& r) const;
+
+ private:
+  void evaluate(const Vector& q, const Vector& r, NewtonPoint<D>& point) const;
+  bool iterate(const Vector& q, Vector& r, NewtonPoint<D>& here) const;
+
+  LocalProblem<D> problem_;
+  Equation equation_;
+};
 
 }  // namespace conebench::solvers

@@ -1,6 +1,10 @@
 #include "solvers/local/newton_fb.h"
 
-#include "solvers/local/newton.h"
+#include <algorithm>
+#include <cmath>
+
+#include "problems/cone.h"
+#include "solvers/local/newton_solve.h"
 
 namespace conebench::solvers {
 namespace {
@@ -41,55 +45,55 @@ void root_of_squares(const Vector& x, const Vector& y, double& low, double& high
 }  // namespace
 
 template <int D>
-void NewtonFbLocal<D>::set(const Matrix& W, double lambda, double mu, double theta) {
-  W_ = W;
-  lambda_ = lambda;
-  mu_ = mu;
-  theta_ = theta;
+void FischerBurmeisterCone<D>::set(const LocalProblem<D>& problem) {
+  const Eigen::Index tangents = problem.W.rows() - 1;
+  const double normal = problem.W(0, 0);
+  const double tangential =
+      problem.W.diagonal().tail(tangents).sum() / static_cast<double>(tangents);
+  scale_ = std::pow((normal > 0.0 ? normal : problem.lambda) *
+                        (tangential > 0.0 ? tangential : problem.lambda),
+                    0.25) /
+           std::sqrt(problem.mu);
 }
 
 template <int D>
-template <class Point>
-void NewtonFbLocal<D>::evaluate(const Vector& q, const Vector& r, Point& point) const {
+void FischerBurmeisterCone<D>::evaluate(const LocalProblem<D>& problem, const Vector& u,
+                                        const Vector& r, NewtonPoint<D>& point) const {
+  using Matrix = Eigen::Matrix<double, D, D>;
   constexpr int T = D == Eigen::Dynamic ? D : D - 1;
   using Tangent = Eigen::Matrix<double, T, 1>;
-  const Eigen::Index tangents = q.size() - 1;
-  const double root = std::sqrt(lambda_);
-  const double normal = std::max(mu_, 1.0), tangent = std::max(1.0 / mu_, 1.0);
-  const Vector u = W_ * r + q;
-  const double speed = u.template segment<T>(1, tangents).norm();
+  const Eigen::Index tangents = r.size() - 1;
+  const double mu = problem.mu, theta = problem.theta;
+  const Matrix& W = problem.W;
+  const auto ut = u.template segment<T>(1, tangents);
+  const double speed = ut.norm();
 
-  Vector x = root * r, y = u / root;
-  x(0) *= normal;
-  x.template segment<T>(1, tangents) *= tangent;
-  y(0) = (u(0) + theta_ * speed) / (normal * root);
-  y.template segment<T>(1, tangents) /= tangent;
-  Matrix dy = W_ / root;
+  // dx = diag(scaling).
+  Vector scaling = Vector::Constant(r.size(), scale_);
+  scaling(0) *= mu;
+  const Vector x = scaling.cwiseProduct(r);
+  Vector y = u.cwiseQuotient(scaling);
+  y(0) += theta * speed / scaling(0);
+  Matrix dy = scaling.cwiseInverse().asDiagonal() * W;
   if (speed > 0.0) {
-    dy.row(0) += (theta_ / (speed * root)) * (u.template segment<T>(1, tangents).transpose() *
-                                              W_.template bottomRows<T>(tangents));
+    dy.row(0) +=
+        (theta / (speed * scaling(0))) * (ut.transpose() * W.template bottomRows<T>(tangents));
   }
-  dy.row(0) /= normal;
-  dy.template bottomRows<T>(tangents) /= tangent;
 
   double low = 0.0, high = 0.0;
   Tangent e(tangents);
   root_of_squares(x, y, low, high, e);
-  point.scale = std::max(q.norm() / root, root * r.norm());
   point.F = x + y;
   point.F(0) -= 0.5 * (low + high);
   point.F.template segment<T>(1, tangents) -= 0.5 * (high - low) * e;
 
-  // dx = root diag(normal, tangent, ..): columns.
-  Vector dx = Vector::Constant(q.size(), root * tangent);
-  dx(0) = root * normal;
   point.jacobian = dy;
-  point.jacobian.diagonal() += dx;
+  point.jacobian.diagonal() += scaling;
   if (!(high > 0.0)) return;
   low = std::max(low, kSmallestEigenvalue * high);
-  Matrix L(q.size(), q.size());
+  Matrix L(r.size(), r.size());
   arrow(x, L);
-  Matrix squares = L * dx.asDiagonal();
+  Matrix squares = L * scaling.asDiagonal();
   arrow(y, L);
   squares.noalias() += L * dy;
   // L_z^{-1} in the frame of z: 1/low and 1/high along (1, -+e), 2/(low + high) across.
@@ -97,7 +101,7 @@ void NewtonFbLocal<D>::evaluate(const Vector& q, const Vector& r, Point& point) 
   const Vector axial = squares.template bottomRows<T>(tangents).transpose() * e;
   const double across = 2.0 / (low + high);
   const Vector falling = (normal_part - axial) / low, rising = (normal_part + axial) / high;
-  Matrix dz(q.size(), q.size());
+  Matrix dz(r.size(), r.size());
   dz.template bottomRows<T>(tangents) =
       across * (squares.template bottomRows<T>(tangents) - e * axial.transpose());
   dz.template bottomRows<T>(tangents) += 0.5 * e * (rising - falling).transpose();
@@ -106,14 +110,18 @@ void NewtonFbLocal<D>::evaluate(const Vector& q, const Vector& r, Point& point) 
 }
 
 template <int D>
-bool NewtonFbLocal<D>::solve(const Vector& q, Vector& r) const {
-  auto equation = [&](const Vector& x, NewtonPoint<D>& point) { evaluate(q, x, point); };
-  return solve_cone_by_newton<D>(equation, W_(0, 0), mu_, q, r);
+double FischerBurmeisterCone<D>::squared_miss(const LocalProblem<D>& problem, const Vector& u,
+                                              const Vector& r, const NewtonPoint<D>&) const {
+  Vector u_hat = u;
+  problems::add_de_saxce(problem.theta, u_hat);
+  Vector projected = r - u_hat / problem.lambda;
+  problems::project(problem.mu, projected);
+  return (r - projected).squaredNorm();
 }
 
-template class NewtonFbLocal<2>;
-template class NewtonFbLocal<3>;
-template class NewtonFbLocal<6>;
-template class NewtonFbLocal<Eigen::Dynamic>;
+template class NewtonLocal<2, FischerBurmeisterCone<2>>;
+template class NewtonLocal<3, FischerBurmeisterCone<3>>;
+template class NewtonLocal<6, FischerBurmeisterCone<6>>;
+template class NewtonLocal<Eigen::Dynamic, FischerBurmeisterCone<Eigen::Dynamic>>;
 
 }  // namespace conebench::solvers

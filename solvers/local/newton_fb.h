@@ -1,48 +1,47 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "solvers/local/newton.h"
 
 namespace conebench::solvers {
 
-/// One cone by the semismooth Newton method on the Fischer-Burmeister function, any d >= 2: the
-/// problem of ExactLocal as
+/// The Fischer-Burmeister function of the second-order cone: with u = W r + q,
 ///
 ///   F(r) = x + y - (x o x + y o y)^{1/2} = 0,
-///   x = sqrt(lambda) (a r_n, b r_t),   y = ((u_n + theta |u_t|) / a, u_t / b) / sqrt(lambda),
+///   x = s (mu r_n, r_t),   y = ((u_n + theta |u_t|) / mu, u_t) / s,
 ///
-/// a = max(mu, 1), b = max(1/mu, 1), of the same size in both whatever mu, in the Jordan algebra of
-/// the second-order cone, u = W r + q: F = 0 says that x and y lie in the self-dual cone K_1 and
-/// are orthogonal. With z = (x o x + y o y)^{1/2} and L_a b = a o b, dF = dx + dy - L_z^{-1} (L_x
-/// dx + L_y dy). At the kinks (z on the cone's surface) z's smaller eigenvalue is floored at 1e-15
-/// of its larger one, which is the derivative of a smoothed F and tends to an element of the
-/// generalised Jacobian; at x = y = 0 it is dx + dy, and |u_t| has derivative 0 at u_t = 0.
+/// in the Jordan algebra of the second-order cone: F = 0 says that x and y lie in the self-dual
+/// cone K_1 and are orthogonal. s^2 = sqrt(W_nn tr W_tt / (d - 1)) / mu: the geometric mean of the
+/// two scalings that would let x and y change alike with r_n and with r_t. Without the 1 / mu, one
+/// of them dwarfs the other for small mu.
+/// With z = (x o x + y o y)^{1/2} and L_a b = a o b, dF = dx + dy - L_z^{-1} (L_x dx + L_y dy).
+/// At the kinks (z on the cone's surface) z's smaller eigenvalue is floored at 1e-15 of its larger
+/// one, which is the derivative of a smoothed F and tends to an element of the generalised
+/// Jacobian; at x = y = 0 it is dx + dy, and |u_t| has derivative 0 at u_t = 0.
+/// The miss is the natural residual, |r - P_K(r - (u + theta |u_t| e_n) / lambda)|: |F| says little
+/// of a cone that is narrow.
 ///
-/// Start, cost and guarantees are those of NewtonAcLocal.
 /// Source  Fukushima, Luo, Tseng, SIAM J. Optim. 12(2) (2002) 436-460 (not checked).
 template <int D>
-class NewtonFbLocal {
+class FischerBurmeisterCone {
  public:
   using Vector = Eigen::Matrix<double, D, 1>;
-  using Matrix = Eigen::Matrix<double, D, D>;
 
-  /// As ExactLocal::set.
-  void set(const Matrix& W, double lambda, double mu, double theta);
-  const Matrix& W() const { return W_; }
-
-  /// Improves r. False if it is not a solution then: the best iterate.
-  bool solve(const Vector& q, Vector& r) const;
+  void set(const LocalProblem<D>& problem);
+  void evaluate(const LocalProblem<D>& problem, const Vector& u, const Vector& r,
+                NewtonPoint<D>& point) const;
+  double squared_miss(const LocalProblem<D>& problem, const Vector& u, const Vector& r,
+                      const NewtonPoint<D>& point) const;
 
  private:
-  template <class Point>
-  void evaluate(const Vector& q, const Vector& r, Point& point) const;
-
-  Matrix W_;
-  double lambda_ = 1.0, mu_ = 0.0, theta_ = 0.0;
+  double scale_ = 1.0;  // s
 };
 
-extern template class NewtonFbLocal<2>;
-extern template class NewtonFbLocal<3>;
-extern template class NewtonFbLocal<6>;
-extern template class NewtonFbLocal<Eigen::Dynamic>;
+template <int D>
+using NewtonFbLocal = NewtonLocal<D, FischerBurmeisterCone<D>>;
+
+extern template class NewtonLocal<2, FischerBurmeisterCone<2>>;
+extern template class NewtonLocal<3, FischerBurmeisterCone<3>>;
+extern template class NewtonLocal<6, FischerBurmeisterCone<6>>;
+extern template class NewtonLocal<Eigen::Dynamic, FischerBurmeisterCone<Eigen::Dynamic>>;
 
 }  // namespace conebench::solvers

@@ -174,6 +174,65 @@ TEST_P(EveryMethod, RefusesAGuessOfTheWrongLengthAndAnUnshiftedProblem) {
 
 INSTANTIATE_TEST_SUITE_P(Registered, EveryMethod, testing::ValuesIn(kEveryMethod), test_name);
 
+TEST(InteriorPoint, QuasidefiniteFormSolvesPrimalProblemsAndRefusesReducedOnes) {
+  const Solver solver = make_solver("aclm-ipm[form=kkt]");
+  const double kick = 2.0 * 9.81 * 0.01;
+  for (const auto& [slope, friction] :
+       {std::pair{0.3, -std::sin(0.3)}, std::pair{0.9, -0.5 * std::cos(0.9)}}) {
+    const Result result =
+        solver.solve(block_on_slope(slope, 0.5, false), {{.tol = 1e-12}, {}, nullptr});
+    EXPECT_EQ(result.status, Status::kConverged);
+    EXPECT_NEAR(result.r(0), kick * std::cos(slope), 1e-11);
+    EXPECT_NEAR(result.r(1), kick * friction, 1e-11);
+  }
+  EXPECT_FALSE(solver.supports(block_on_slope(0.3, 0.5, true)));
+}
+
+TEST(InteriorPoint, QuasidefiniteFormFindsMadeSolutionsOfAllDimensions) {
+  const Solver solver = make_solver("aclm-ipm[form=kkt]");
+  for (const double theta_share : {0.0, 1.0}) {
+    for (const std::vector<int>& dims :
+         {std::vector<int>{1}, {2}, {3}, {6}, {4}, std::vector<int>{3, 1, 6, 2}}) {
+      const Problem problem = problems::make_backwards({.cones = 12,
+                                                        .dims = dims,
+                                                        .mu_high = 0.5,
+                                                        .theta_share = theta_share,
+                                                        .cohesive_share = 0.5,
+                                                        .seed = 21})
+                                  .problem.shifted();
+      const Result result = solver.solve(problem, {{.tol = 1e-8}, {}, nullptr});
+      EXPECT_EQ(result.status, Status::kConverged) << problem.name();
+      EXPECT_LE(problems::evaluate_eta(problem, result.r), 1e-8) << problem.name();
+    }
+  }
+}
+
+// Only Gauss-Seidel takes W = 0, and not where it would have to form a large dense W.
+TEST(Automatic, RefusesWhatEachOfItsMethodsRefuses) {
+  constexpr int kCones = 2001, kDofs = 3000;
+  SparseMatrix M(kDofs, kDofs);
+  for (int k = 0; k < kDofs; ++k) {
+    M.insert(k, k) = 4.0;
+    if (k > 0) M.insert(k, k - 1) = M.insert(k - 1, k) = 1.0;
+  }
+  Eigen::VectorXd w = Eigen::VectorXd::Zero(3 * kCones);
+  w(0) = -1.0;
+  const auto problem = [&](int cones) {
+    return Problem(PrimalData{M, SparseMatrix(3 * cones, kDofs), Eigen::VectorXd::Zero(kDofs),
+                              w.head(3 * cones)},
+                   std::vector<Cone>(static_cast<std::size_t>(cones), Cone::coulomb(3, 0.5)), {});
+  };
+  const Result refused = make_solver("auto").solve(problem(kCones), {});
+  EXPECT_EQ(refused.status, Status::kUnsupported);
+  EXPECT_EQ(refused.r.size(), 3 * kCones);
+  ASSERT_EQ(refused.notes.size(), 1u);
+  EXPECT_NE(refused.notes[0].find("W is zero"), std::string::npos);
+  EXPECT_NE(refused.notes[0].find("6003 rows"), std::string::npos);
+  const Result tried = make_solver("auto").solve(problem(2), {{.max_iterations = 5}, {}, nullptr});
+  EXPECT_NE(tried.status, Status::kUnsupported);
+  EXPECT_NE(tried.status, Status::kConverged);
+}
+
 TEST(GaussSeidel, BothFormsTakeTheSameSteps) {
   const Problem problem =
       problems::make_backwards({.cones = 25, .dims = {3, 2, 6}, .seed = 31}).problem;

@@ -1,0 +1,25 @@
+"""What the scripts of this folder share."""
+import json
+import pathlib
+import platform
+import subprocess
+
+PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "conebench"
+
+
+def run_json(command):
+    done = subprocess.run([str(x) for x in command], capture_output=True, text=True)
+    if not done.stdout.strip():
+        raise RuntimeError(f"{command}: exit {done.returncode}: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
+def machine():
+    """The name of the processor, for the line "Machine: ..." of a table."""
+    with open("/proc/cpuinfo") as info:
+        return next((line.split(":", 1)[1].strip() for line in info
+                     if line.startswith("model name")), platform.machine())
+
+
+def shown(value):
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
