@@ -30,12 +30,15 @@ double MonotoneSearch::disagreement(const FrozenSolution& solution, int node) co
 bool MonotoneSearch::take(const FrozenSolution& solution) {
   ++solves_;
   tried_.insert(states_);
-  std::vector<std::size_t> wrong;
-  double violation = 0.0;
+  std::vector<double> excess(states_.size());
   for (std::size_t i = 0; i < states_.size(); ++i) {
-    const double excess = disagreement(solution, static_cast<int>(i));
-    if (excess > 0.0) wrong.push_back(i);
-    violation = std::max(violation, excess);
+    excess[i] = disagreement(solution, static_cast<int>(i));
+  }
+  const double violation = excess.empty() ? 0.0 : *std::max_element(excess.begin(), excess.end());
+  const double share = solves_ <= kWholeSolves ? 0.0 : kWorstShare * violation;
+  std::vector<std::size_t> wrong;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (excess[i] > 0.0 && excess[i] >= share) wrong.push_back(i);
   }
   const bool best = violation < least_violation_;
   if (best) least_violation_ = violation;

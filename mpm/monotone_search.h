@@ -22,15 +22,19 @@ struct FrozenSolution {
 ///   loose -> bonded   if (B v)_0 >= -tol_rate      (it is about to dilate)
 ///
 /// For mu = 0 this is the maximal monotone law  r_n >= 0 at rate -g;  0 on (-g, 0);  in
-/// [-kappa, 0] at 0;  -kappa above. All disagreeing nodes change at once; when that set of states
-/// has been tried before, only the first of them does (Murty's least index, finite for mu = 0;
-/// with friction nothing is guaranteed). The states with the least violation are kept.
+/// [-kappa, 0] at 0;  -kappa above. At first all disagreeing nodes change at once, later
+/// those that disagree most; when that set of states has been tried before, only the first of them
+/// does (Murty's least index, finite for mu = 0; with friction nothing is guaranteed). The states
+/// with the least violation are kept.
 ///
 ///   MonotoneSearch search(start, changeable);
 ///   do { solve with search.states(); if (search.take(solution)) keep it; } while (!search.done());
 class MonotoneSearch {
  public:
   static constexpr int kMostSolves = 30;
+  /// After so many solves only nodes that disagree by this share of the worst one change.
+  static constexpr int kWholeSolves = 3;
+  static constexpr double kWorstShare = 0.5;
 
   /// `may_change` of a node: under-dense and cohesive.
   MonotoneSearch(std::vector<NodeState> start, std::vector<bool> may_change);
