@@ -86,6 +86,7 @@ class Automatic final : public Iteration {
     const double work = lane.iteration->work_s() - before;
     ++lane.steps;
     turn_s_ += work;
+    total_s_ += work;
     lane.done_s += work;
     if (state == State::kInfeasible) return state;
     if (state == State::kRunning && !turn_is_over(lane)) return State::kRunning;
@@ -94,6 +95,7 @@ class Automatic final : public Iteration {
 
   const Eigen::VectorXd& r() const override { return lanes_[current_].iteration->r(); }
   double own_eta() const override { return lanes_[current_].iteration->own_eta(); }
+  double work_s() const override { return total_s_; }
   Eigen::VectorXd certificate() const override { return lanes_[current_].iteration->certificate(); }
 
   std::vector<std::string> notes() const override {
@@ -183,7 +185,7 @@ class Automatic final : public Iteration {
   std::size_t current_ = 0;
   Eigen::VectorXd guess_, best_;
   double best_eta_ = kInfinity;
-  double turn_s_ = 0.0, turn_from_ = kInfinity;
+  double turn_s_ = 0.0, turn_from_ = kInfinity, total_s_ = 0.0;
 };
 
 }  // namespace
