@@ -129,8 +129,7 @@ class Assembler {
       out_.data.f = momentum;
       return;
     }
-    const SparseMatrix viscous =
-        M + h_ * viscous_form(scene_, particles_, nodes_, out_.dof, dofs_);
+    const SparseMatrix viscous = M + h_ * viscous_form(scene_, particles_, nodes_, out_.dof, dofs_);
     out_.free_velocity = problems::Inertia(viscous, scene_.name).solve(momentum);
     if (scene_.material.viscosity_in_mass) {
       M = viscous;
@@ -286,8 +285,8 @@ class Assembler {
         nodes_.stress[static_cast<std::size_t>(contact.node)].template head<kEntries<D>>();
     const Vec<D> normal = contact.frame.col(0).template head<D>();
     Eigen::Vector3d out = Eigen::Vector3d::Zero();
-    out.head<D>() = contact.frame.template topLeftCorner<D, D>().transpose() *
-                    (h_ * to_tensor<D>(s) * normal);
+    out.head<D>() =
+        contact.frame.template topLeftCorner<D, D>().transpose() * (h_ * to_tensor<D>(s) * normal);
     return out;
   }
 

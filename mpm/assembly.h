@@ -20,7 +20,7 @@ struct Interface {
   int body = -1;          ///< -1: a wall
   double weight = 0.0;    ///< area x volume fraction [m2, per metre in 2D]
   double friction = 0.0;
-  double gap_m = 0.0;     ///< may close by this much
+  double gap_m = 0.0;  ///< may close by this much
 };
 
 /// The cone problem of one step, as arrays:
@@ -33,9 +33,9 @@ struct Interface {
 ///
 /// Rows of shear stress at slip walls are zero. Components held by walls are eliminated.
 struct Assembly {
-  problems::PrimalData data;          ///< w is 0 on the stress rows: the law sets it
-  std::vector<problems::Cone> cones;  ///< kappa is 0 on the stress cones: likewise
-  std::vector<Interface> interfaces;  ///< of the cones from nodes.count() on
+  problems::PrimalData data;            ///< w is 0 on the stress rows: the law sets it
+  std::vector<problems::Cone> cones;    ///< kappa is 0 on the stress cones: likewise
+  std::vector<Interface> interfaces;    ///< of the cones from nodes.count() on
   std::vector<std::array<int, 3>> dof;  ///< of each node and axis; -1: held
   std::vector<int> body_dof;            ///< first one of each body; -1: not free
   Eigen::VectorXd free_velocity;        ///< M^-1 f, one entry a dof

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -84,6 +85,16 @@ void for_each_total(Totals& s, const F& f) {
   f("solve_s", s.solve_s);
 }
 
+// The engine trusts both: a stencil needs its particle inside the grid.
+void check_places(const Grid& grid, const Particles& particles, const std::vector<int>& index) {
+  const auto on_grid = [&](int node) { return node >= 0 && node < grid.node_count(); };
+  const auto inside = [&](const Eigen::Vector3d& x) { return grid.contains(x); };
+  if (!std::all_of(index.begin(), index.end(), on_grid) ||
+      !std::all_of(particles.position.begin(), particles.position.end(), inside)) {
+    throw std::out_of_range("a particle or a node outside the grid");
+  }
+}
+
 std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   problems::require(file && !std::filesystem::is_directory(path), path.string(),
@@ -94,15 +105,20 @@ std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
 }  // namespace
 
 void Simulation::save(const std::filesystem::path& path) const {
-  json out = {{"format", kFormat}, {"version", kVersion}, {"scene", to_toml(scene_)},
-              {"time_s", time_s_}, {"count", particles_.count()}};
+  json out = {{"format", kFormat},
+              {"version", kVersion},
+              {"scene", to_toml(scene_)},
+              {"time_s", time_s_},
+              {"count", particles_.count()}};
   for_each_array(particles_, [&](const char* name, const auto& values) {
     out["particles"][name] = bytes_of(values);
   });
-  out["nodes"] = {{"index", last_index_}, {"stress", bytes_of(last_stress_)},
+  out["nodes"] = {{"index", last_index_},
+                  {"stress", bytes_of(last_stress_)},
                   {"state", bytes_of(last_states_)}};
   out["bodies"] = bytes_of(body_numbers(bodies_));
-  for_each_total(summary_, [&](const char* name, const auto& value) { out["totals"][name] = value; });
+  for_each_total(summary_,
+                 [&](const char* name, const auto& value) { out["totals"][name] = value; });
   const std::vector<std::uint8_t> bytes = json::to_cbor(out);
   problems::write_file_atomically(path, std::as_bytes(std::span(bytes)));
 }
@@ -125,6 +141,7 @@ void Simulation::restart(const std::filesystem::path& path) {
     in.at("nodes").at("index").get_to(index);
     read_bytes(in.at("nodes").at("stress"), index.size(), stress);
     read_bytes(in.at("nodes").at("state"), index.size(), states);
+    check_places(scene_.grid, particles, index);
     std::vector<double> numbers;
     read_bytes(in.at("bodies"), 13 * bodies_.size(), numbers);
     Summary summary;

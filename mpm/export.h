@@ -10,8 +10,7 @@ namespace conebench::mpm {
 /// The problem of step `step`, named "<scene>_<step, 6 digits>", all stress nodes dry and without
 /// gap; with_states() puts the law in. Takes the assembly's matrices. The only place in this folder
 /// that makes a problem.
-problems::Problem make_problem(const Scene& scene, std::int64_t step, double h,
-                               Assembly& assembly);
+problems::Problem make_problem(const Scene& scene, std::int64_t step, double h, Assembly& assembly);
 
 /// The problem for frozen states of the nodes.
 problems::Problem with_states(const problems::Problem& base, const CohesionLaw& law,

@@ -24,7 +24,7 @@ void gather_in(const Scene& scene, const Nodes& nodes, const std::vector<Eigen::
                const std::vector<Particles::Stress>& stress, double h, Particles& particles) {
   const Material& material = scene.material;
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = stencil_at<D>(scene.grid, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(scene.grid, nodes, particles.position[p]);
     Vec<D> v = Vec<D>::Zero();
     Eigen::Matrix<double, D, D> C = Eigen::Matrix<double, D, D>::Zero();
     Particles::Stress lambda = Particles::Stress::Zero();
@@ -55,7 +55,7 @@ double crossed_in(const Grid& grid, const Nodes& nodes,
                   const std::vector<Eigen::Vector3d>& velocity, const Particles& particles) {
   double most = 0.0;
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = stencil_at<D>(grid, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(grid, nodes, particles.position[p]);
     Vec<D> v = Vec<D>::Zero();
     for (std::size_t k = 0; k < Stencil<D>::kNodes; ++k) {
       const int slot = nodes.slot_of[static_cast<std::size_t>(s.node[k])];

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "mpm/nodes.h"
+#include "mpm/walls.h"
 
 namespace conebench::mpm {
 namespace {
@@ -63,7 +64,7 @@ void sum(const Scene& scene, const Particles& particles, Nodes& nodes) {
     for (std::size_t k = 0; k < kNodes; ++k) places[i][k] = neighbour<D>(i, k);
   }
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = stencil_at<D>(scene.grid, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(scene.grid, nodes, particles.position[p]);
     const Vec<D> v = particles.velocity[p].template head<D>();
     const Eigen::Matrix<double, D, D> C = particles.affine[p].template topLeftCorner<D, D>();
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -131,6 +132,21 @@ double covered_volume(const Grid& grid, int node, const std::vector<RigidBody>& 
   return volume;
 }
 
+// 1, or 1/2 for every closed barrier on which the node lies with sand on one side only.
+double open_share(const Scene& scene, const Nodes& nodes, int node, double time_s) {
+  const Eigen::Vector3i at = scene.grid.place(node);
+  double share = 1.0;
+  for (const Barrier& barrier : scene.barriers) {
+    if (!holds(scene, barrier, node, time_s)) continue;
+    const Eigen::Vector3i step = Eigen::Vector3i::Unit(barrier.axis);
+    const auto sandy = [&](const Eigen::Vector3i& place) {
+      return nodes.slot_of[static_cast<std::size_t>(scene.grid.node(place))] >= 0;
+    };
+    if (sandy(at - step) != sandy(at + step)) share *= 0.5;
+  }
+  return share;
+}
+
 }  // namespace
 
 void scatter(const Scene& scene, const Particles& particles, Nodes& nodes) {
@@ -141,7 +157,7 @@ void scatter(const Scene& scene, const Particles& particles, Nodes& nodes) {
   }
 }
 
-void cover(const Scene& scene, const std::vector<RigidBody>& bodies, Nodes& nodes) {
+void cover(const Scene& scene, const std::vector<RigidBody>& bodies, double time_s, Nodes& nodes) {
   const Grid& grid = scene.grid;
   double diagonal = 0.0;
   for (int a = 0; a < grid.dim; ++a) diagonal += grid.spacing(a) * grid.spacing(a);
@@ -153,6 +169,8 @@ void cover(const Scene& scene, const std::vector<RigidBody>& bodies, Nodes& node
       return distance_to(body, grid.dim, x).value < diagonal;
     });
     if (near) nodes.covered[i] = covered_volume(grid, node, bodies);
+    const double open = open_share(scene, nodes, node, time_s);
+    nodes.covered[i] += (1.0 - open) * (nodes.volume[i] - nodes.covered[i]);
   }
 }
 

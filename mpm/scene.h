@@ -16,7 +16,8 @@ namespace conebench::mpm {
 enum class Law { kUniform, kDenseOnly, kDilationAware, kMonotone };
 std::string_view to_string(Law law);
 
-/// One granular material: Drucker-Prager sqrt(J2) <= friction p + cohesion, no dilatancy.
+/// One granular material: Drucker-Prager sqrt(J2) <= friction p + cohesion, no dilatancy. Stress
+/// and cohesion are per volume of solid: the bulk carries phi times as much.
 struct Material {
   double density_kg_m3 = 0.0;      ///< of the grains, > 0
   double phi_max = 1.0;            ///< largest volume fraction, 0 < phi_max <= 1

@@ -136,7 +136,7 @@ bool Simulation::try_step(double h) {
   {
     const Stopwatch watch(summary_.transfer_s);
     scatter(scene_, particles_, nodes_);
-    cover(scene_, bodies_, nodes_);
+    cover(scene_, bodies_, time_s_, nodes_);
     recall_stress();
   }
   std::optional<problems::Problem> base;
@@ -250,7 +250,7 @@ void Simulation::keep_inside() {
   particles_.remove_if([&](std::size_t p) {
     Eigen::Vector3d& x = particles_.position[p];
     for (int a = 0; a < grid.dim; ++a) {
-      const bool below = x[a] < grid.low_m[a], above = x[a] > high[a];
+      const bool below = x[a]<grid.low_m[a], above = x[a]> high[a];
       if (!below && !above) continue;
       if (scene_.wall(a, above).condition == Condition::kFree) {
         ++summary_.left_particles;
@@ -287,9 +287,9 @@ State Simulation::state() const {
   if (mass > 0.0) state.centre_m /= mass;
   for (const RigidBody& body : bodies_) {
     if (!body.moves_freely()) continue;
-    state.kinetic_J += 0.5 * body.mass * body.velocity.squaredNorm() +
-                       0.5 * body.angular_velocity.dot(body.inertia_tensor() *
-                                                       body.angular_velocity);
+    state.kinetic_J +=
+        0.5 * body.mass * body.velocity.squaredNorm() +
+        0.5 * body.angular_velocity.dot(body.inertia_tensor() * body.angular_velocity);
     state.potential_J -= body.mass * g.dot(body.centre_m);
   }
   return state;

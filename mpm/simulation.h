@@ -18,22 +18,22 @@ struct Summary {
   std::int64_t capped = 0;             ///< steps that gave up after MonotoneSearch::kMostSolves
   std::int64_t iterations = 0;         ///< of the step solver
   std::int64_t last_cones = 0, most_cones = 0;
-  std::int64_t left_particles = 0;     ///< through free walls
-  double left_volume_m3 = 0.0;         ///< of solid, likewise
-  double transfer_s = 0.0;             ///< particles to grid and back
-  double assembly_s = 0.0;             ///< of the cone problems
-  double solve_s = 0.0;                ///< in the step solver
+  std::int64_t left_particles = 0;  ///< through free walls
+  double left_volume_m3 = 0.0;      ///< of solid, likewise
+  double transfer_s = 0.0;          ///< particles to grid and back
+  double assembly_s = 0.0;          ///< of the cone problems
+  double solve_s = 0.0;             ///< in the step solver
 };
 
 /// What a heap is judged by at one moment. Up is against gravity (y or z without gravity).
 struct State {
   double time_s = 0.0;
-  double front_m = 0.0;        ///< largest x of a particle
-  double top_m = 0.0;          ///< greatest height of a particle
+  double front_m = 0.0;                                ///< largest x of a particle
+  double top_m = 0.0;                                  ///< greatest height of a particle
   Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of mass
   double fastest_m_s = 0.0;
-  double kinetic_J = 0.0;      ///< of the particles' velocities, bodies included
-  double potential_J = 0.0;    ///< bodies included
+  double kinetic_J = 0.0;    ///< of the particles' velocities, bodies included
+  double potential_J = 0.0;  ///< bodies included
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< of the particles [kg m/s]
 };
 

@@ -13,10 +13,10 @@ struct StepView {
   double time_s = 0.0;    ///< at the end of the step
   double h = 0.0;         ///< size of the step [s]
   const Scene* scene = nullptr;
-  const Particles* particles = nullptr;             ///< at the end of the step
+  const Particles* particles = nullptr;                   ///< at the end of the step
   const std::vector<RigidBody>* bodies = nullptr;         ///< at the end of the step
   const std::vector<RigidBody>* bodies_before = nullptr;  ///< where the problem was made
-  const Nodes* nodes = nullptr;                     ///< at its beginning, where the problem was made
+  const Nodes* nodes = nullptr;  ///< at its beginning, where the problem was made
   const std::vector<Eigen::Vector3d>* velocity = nullptr;  ///< of the nodes, after the solve [m/s]
   const Assembly* assembly = nullptr;
   const std::vector<NodeState>* states = nullptr;  ///< of the nodes, as solved

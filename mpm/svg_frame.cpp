@@ -113,7 +113,7 @@ Frame make_frame(const Simulation& simulation) {
   const Particles& particles = simulation.particles();
   Nodes nodes;
   scatter(scene, particles, nodes);
-  cover(scene, simulation.bodies(), nodes);
+  cover(scene, simulation.bodies(), simulation.time_s(), nodes);
   Frame frame;
   frame.time_s = simulation.time_s();
   frame.positions = particles.position;

@@ -10,7 +10,7 @@ using Vec = Eigen::Matrix<double, D, 1>;
 
 /// Independent entries of a symmetric tensor: 3 in two dimensions, 6 in three.
 template <int D>
-inline constexpr int kEntries = D * (D + 1) / 2;
+inline constexpr int kEntries = D*(D + 1) / 2;
 
 /// Coordinates of a symmetric tensor a in which a : b = 2 abar . bbar, the trace first:
 ///
@@ -30,9 +30,9 @@ Eigen::Matrix<double, kEntries<D>, D> strain_block(const Vec<D>& g) {
     b << g[0], g[1], g[0], -g[1], g[1], g[0];
   } else {
     const double third = std::sqrt(2.0 / 3.0), root = 1.0 / std::sqrt(3.0);
-    b << third * g[0], third * g[1], third * g[2],         //
-        g[0], -g[1], 0.0,                                  //
-        -root * g[0], -root * g[1], 2.0 * root * g[2],     //
+    b << third * g[0], third * g[1], third * g[2],      //
+        g[0], -g[1], 0.0,                               //
+        -root * g[0], -root * g[1], 2.0 * root * g[2],  //
         g[1], g[0], 0.0, g[2], 0.0, g[0], 0.0, g[2], g[1];
   }
   return b;

@@ -10,8 +10,8 @@ problems::SparseMatrix form_in(const Scene& scene, const Particles& particles, c
   constexpr std::size_t kNodes = Stencil<D>::kNodes;
   std::vector<Eigen::Triplet<double, int>> entries;
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = stencil_at<D>(scene.grid, particles.position[p]);
-    Eigen::Matrix<double, kEntries<D>, D * (1 << D)> strain;
+    const Stencil<D> s = active_stencil<D>(scene.grid, nodes, particles.position[p]);
+    Eigen::Matrix<double, kEntries<D>, D*(1 << D)> strain;
     std::array<int, D * kNodes> column;
     for (std::size_t k = 0; k < kNodes; ++k) {
       const auto first = static_cast<Eigen::Index>(D * k);
@@ -25,8 +25,8 @@ problems::SparseMatrix form_in(const Scene& scene, const Particles& particles, c
     for (std::size_t i = 0; i < column.size(); ++i) {
       for (std::size_t j = 0; j < column.size(); ++j) {
         if (column[i] < 0 || column[j] < 0) continue;
-        const double value = strain.col(static_cast<Eigen::Index>(i))
-                                 .dot(strain.col(static_cast<Eigen::Index>(j)));
+        const double value =
+            strain.col(static_cast<Eigen::Index>(i)).dot(strain.col(static_cast<Eigen::Index>(j)));
         entries.emplace_back(column[i], column[j], weight * value);
       }
     }
@@ -39,8 +39,8 @@ problems::SparseMatrix form_in(const Scene& scene, const Particles& particles, c
 }  // namespace
 
 problems::SparseMatrix viscous_form(const Scene& scene, const Particles& particles,
-                                    const Nodes& nodes,
-                                    const std::vector<std::array<int, 3>>& dof, int dofs) {
+                                    const Nodes& nodes, const std::vector<std::array<int, 3>>& dof,
+                                    int dofs) {
   return scene.grid.dim == 2 ? form_in<2>(scene, particles, nodes, dof, dofs)
                              : form_in<3>(scene, particles, nodes, dof, dofs);
 }

@@ -40,8 +40,7 @@ double face_area(const Grid& grid, const Eigen::Vector3i& at, int axis) {
   return area;
 }
 
-void add_wall_cones(const Scene& scene, const Nodes& nodes, int slot,
-                    std::vector<Interface>& out) {
+void add_wall_cones(const Scene& scene, const Nodes& nodes, int slot, std::vector<Interface>& out) {
   const Grid& grid = scene.grid;
   const int node = nodes.index[static_cast<std::size_t>(slot)];
   const Eigen::Vector3i at = grid.place(node);
@@ -114,7 +113,8 @@ bool covers(const Barrier& barrier, const Eigen::Vector3d& gravity_m_s2, int dim
   if (open_s > 0.0) {
     Eigen::Index vertical;
     gravity_m_s2.cwiseAbs().maxCoeff(&vertical);
-    const double lift = barrier.opening_m_s * open_s * (gravity_m_s2[vertical] < 0.0 ? 1.0 : -1.0);
+    const double up = gravity_m_s2[vertical] < 0.0 ? 1.0 : -1.0;
+    const double lift = barrier.opening_m_s * open_s * up;
     low[vertical] += lift;
     high[vertical] += lift;
   }
@@ -126,6 +126,13 @@ bool covers(const Barrier& barrier, const Eigen::Vector3d& gravity_m_s2, int dim
   return true;
 }
 
+bool holds(const Scene& scene, const Barrier& barrier, int node, double time_s) {
+  const Grid& grid = scene.grid;
+  const double plane = (barrier.position_m - grid.low_m[barrier.axis]) / grid.spacing(barrier.axis);
+  return grid.place(node)[barrier.axis] == std::lround(plane) &&
+         covers(barrier, scene.gravity_m_s2, grid.dim, grid.position(node), time_s);
+}
+
 NodeWalls walls_at(const Scene& scene, int node, double time_s) {
   const Grid& grid = scene.grid;
   const Eigen::Vector3i at = grid.place(node);
@@ -135,11 +142,7 @@ NodeWalls walls_at(const Scene& scene, int node, double time_s) {
     if (at[axis] == grid.cells[axis]) hold(scene.wall(axis, true).condition, axis, walls);
   }
   for (const Barrier& barrier : scene.barriers) {
-    const double place =
-        (barrier.position_m - grid.low_m[barrier.axis]) / grid.spacing(barrier.axis);
-    if (at[barrier.axis] != std::lround(place)) continue;
-    if (!covers(barrier, scene.gravity_m_s2, grid.dim, grid.position(node), time_s)) continue;
-    hold(barrier.condition, barrier.axis, walls);
+    if (holds(scene, barrier, node, time_s)) hold(barrier.condition, barrier.axis, walls);
   }
   return walls;
 }

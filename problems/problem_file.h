@@ -19,11 +19,11 @@ struct Geometry {
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-  Table points;                ///< cones x 3 [m]
-  Table frames;                ///< cones x 9: normal, first and second tangent, unit vectors
-  Pairs bodies_of_cone;        ///< cones x 2: body indices; -1 is a wall or the ground
-  Table body_positions;        ///< bodies x 3 [m]
-  Eigen::VectorXd body_radii;  ///< bodies; 0 where a body is not a sphere [m]
+  Table points;                     ///< cones x 3 [m]
+  Table frames;                     ///< cones x 9: normal, first and second tangent, unit vectors
+  Pairs bodies_of_cone;             ///< cones x 2: body indices; -1 is a wall or the ground
+  Table body_positions;             ///< bodies x 3 [m]
+  Eigen::VectorXd body_radii;       ///< bodies; 0 where a body is not a sphere [m]
   Eigen::VectorXd volume_fraction;  ///< cones; of the medium there [-]; 0: not a node of a medium
   std::vector<int> state;           ///< cones; a NodeState, -1: not a node of a medium
 };

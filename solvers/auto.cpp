@@ -29,10 +29,12 @@ constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 struct Lane {
   std::string name;
   MakeIteration make;
-  double first_promise;      // work to finish before it has run, in sweeps of Gauss-Seidel
+  double first_promise;      // work to finish before it has run, in sweeps of
+                             // Gauss-Seidel
   std::int64_t first_steps;  // of its first turn, at least
   std::int64_t usual_steps;  // of a run that succeeds without trouble
-  double handover;           // a start is taken from others when better than its own by this factor
+  double handover;           // a start is taken from others when better than its own by
+                             // this factor
 
   std::unique_ptr<Iteration> iteration{};
   double eta = kInfinity;  // at the end of its last turn
@@ -60,11 +62,16 @@ class Automatic final : public Iteration {
                         kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
-    lanes_.push_back(
-        {"newton-ac", [](const Problem& p) { return make_newton(p, {}); }, 300.0, 1, 15, 1e-2});
-    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, 1500.0, 1, 30, 0.0});
+    // Where W is singular for sure, factorisations of the others cost most and
+    // help least.
+    const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
+    lanes_.push_back({"prox-newton", make_proximal_newton, 300.0, 1, 80, 0.1});
+    lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
+                      singular ? 15000.0 : 300.0, 1, 15, 1e-2});
+    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); },
+                      singular ? 15000.0 : 1500.0, 1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      1500.0, 1, 60, 0.1});
+                      singular ? 10000.0 : 1500.0, 1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {

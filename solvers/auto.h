@@ -4,12 +4,13 @@
 
 namespace conebench::solvers {
 
-/// `auto`: Gauss-Seidel, proximal Alart-Curnier Newton, the fixed point aclm and the interior point
+/// `auto`: Gauss-Seidel, Newton on the proximal point problem (make_proximal_newton of
+/// solvers/ssnal.h), proximal Alart-Curnier Newton, the fixed point aclm and the interior point
 /// take turns on one problem, each for as long as it promises to be the first to finish.
 ///
-/// Lanes     gs[skip=10], newton-ac, ipm, aclm; each is made when its first turn comes and keeps
-///           its factorisations. One that refuses the problem is left out; a problem that all
-///           refuse is refused.
+/// Lanes     gs[skip=10], prox-newton, newton-ac, ipm, aclm; each is made when its first turn
+///           comes and keeps its factorisations. One that refuses the problem is left out; a
+///           problem that all refuse is refused.
 /// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
 ///           takes the same turns in every run.
 /// Turn      lasts until the lane has done half as much work again as before it (at least one
@@ -18,12 +19,14 @@ namespace conebench::solvers {
 /// Promise   a lane whose last turn of work t took ln(eta) down by g finishes within about
 ///           t ln(eta / tol) / g. One whose turn brought nothing promises 4 times the work done, so
 ///           that lanes without progress stay within a constant factor of each other. Before it has
-///           done the steps it usually needs (newton-ac 15, ipm 30, aclm 60), a lane promises at
-///           most the work of the rest; before its first turn, a number of sweeps of gs.
+///           done the steps it usually needs (prox-newton 80, newton-ac 15, ipm 30, aclm 60), a
+///           lane promises at most the work of the rest; before its first turn, a number of
+///           sweeps of gs, larger for the last three where H has more rows than columns, so
+///           that W is singular.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
-///           lanes where that is far better than its own (gs, aclm: 10 times; newton-ac, whose path
-///           matters: 100 times; ipm, which gains nothing from a start on the boundary: never).
-///           A lane that stopped goes on only in this way.
+///           lanes where that is far better than its own (gs, prox-newton, aclm: 10 times;
+///           newton-ac, whose path matters: 100 times; ipm, which gains nothing from a start on the
+///           boundary: never). A lane that stopped goes on only in this way.
 ///
 /// Evidence: on hyperstatic piles Gauss-Seidel crawls where Newton with a proximal term finishes in
 /// a few steps, on sphere packings the other way round, and nothing in the data tells them apart

@@ -34,11 +34,11 @@ std::vector<std::string> demo_variants() {
 // The walls of the columns of spheres go at step 100: some steps of settling, most of collapse. The
 // sand gets cells of twice the size, and a law that needs one solve a step.
 std::vector<SceneExport> demo_scenes() {
-  const std::string coarse = "grid.cells=[40,10]", law = "material.law=dilation-aware";
+  const std::string coarse = "grid.cells=[40,10]";
   return {{"column-dry", 300, 20, 20, {}},
           {"column-cohesive", 300, 20, 20, {}},
           {"sand-column", 100, 10, 10, {coarse}},
-          {"sand-column-cohesive", 100, 10, 10, {coarse, law}}};
+          {"sand-column-cohesive", 100, 10, 10, {coarse}}};
 }
 constexpr auto kSceneSolver = "auto";
 constexpr double kSceneBudget_s = 25.0, kSceneLimit_s = 60.0;  // of wall time

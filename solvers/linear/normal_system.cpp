@@ -14,7 +14,8 @@ using problems::SparseMatrix;
 using Matrix = Cholesky::Matrix;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The rows of H cone by cone: which dofs a cone touches, and its dense block on them.
+// The rows of H cone by cone: which dofs a cone touches, and its dense block on
+// them.
 class ConeRows {
  public:
   explicit ConeRows(const Problem& problem) {
@@ -62,11 +63,13 @@ class ConeRows {
   std::vector<double> values_;
 };
 
-// Lower triangle of the pattern of M + H^T E H with zeros stored, M's values added later.
+// Lower triangle of the pattern of M + H^T E H with zeros stored, M's values
+// added later.
 Matrix pattern(const Problem& problem, const ConeRows& rows) {
   const int dofs = problem.dofs();
   std::vector<std::vector<int>> columns(static_cast<std::size_t>(dofs));
-  std::vector<std::size_t> limits(columns.size(), 512);  // length at which a column is settled
+  std::vector<std::size_t> limits(columns.size(),
+                                  512);  // length at which a column is settled
   auto settle = [](std::vector<int>& column) {
     std::sort(column.begin(), column.end());
     column.erase(std::unique(column.begin(), column.end()), column.end());
@@ -102,7 +105,8 @@ Matrix pattern(const Problem& problem, const ConeRows& rows) {
   return lower;
 }
 
-// Adds the lower triangle of `dense` at rows and columns `dofs`, all of which are stored.
+// Adds the lower triangle of `dense` at rows and columns `dofs`, all of which
+// are stored.
 void add_lower(std::span<const int> dofs, const Eigen::MatrixXd& dense, Matrix& lower) {
   for (std::size_t j = 0; j < dofs.size(); ++j) {
     int at = lower.outerIndexPtr()[dofs[j]];
@@ -139,10 +143,11 @@ struct NormalSystem::Primal {
     return cholesky.factorize(matrix);
   }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) const {
-    const Eigen::VectorXd y = cholesky.solve(problem.H().transpose() * b);
-    return b - E * (problem.H() * y);
+  Eigen::VectorXd solve_rate(const Eigen::VectorXd& b) const {
+    return problem.H() * cholesky.solve(problem.H().transpose() * b);
   }
+
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) const { return b - E * solve_rate(b); }
 
   bool factorize_root(const BlockDiagonal& root) {
     E = root;
@@ -269,6 +274,10 @@ bool NormalSystem::factorize(const BlockDiagonal& E) {
 
 Eigen::VectorXd NormalSystem::solve(const Eigen::VectorXd& b) const {
   return primal_ ? primal_->solve(b) : reduced_->solve(b);
+}
+
+Eigen::VectorXd NormalSystem::solve_rate(const Eigen::VectorXd& b) const {
+  return primal_ ? primal_->solve_rate(b) : reduced_->problem.apply_delassus(reduced_->solve(b));
 }
 
 double NormalSystem::work_s() const {
