@@ -10,7 +10,7 @@ import common
 import scene_runs
 
 SCENES = (("sand-column", "dry column"), ("sand-column-cohesive", "cohesive column"),
-          ("sand-silo", "silo"), ("sand-tower", "cohesive tower, hit by a ball"))
+          ("sand-silo", "silo"), ("sand-door", "behind a door"))
 
 
 def main():

@@ -29,12 +29,10 @@ constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 struct Lane {
   std::string name;
   MakeIteration make;
-  double first_promise;      // work to finish before it has run, in sweeps of
-                             // Gauss-Seidel
+  double first_promise;      // work to finish before it has run, in sweeps of Gauss-Seidel
   std::int64_t first_steps;  // of its first turn, at least
   std::int64_t usual_steps;  // of a run that succeeds without trouble
-  double handover;           // a start is taken from others when better than its own by
-                             // this factor
+  double handover;           // a start is taken from others when better than its own by this factor
 
   std::unique_ptr<Iteration> iteration{};
   double eta = kInfinity;  // at the end of its last turn
@@ -62,8 +60,7 @@ class Automatic final : public Iteration {
                         kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
-    // Where W is singular for sure, factorisations of the others cost most and
-    // help least.
+    // Where W is singular for sure, the others need more and dearer factorisations.
     const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
     lanes_.push_back({"prox-newton", make_proximal_newton, 300.0, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
@@ -198,11 +195,12 @@ class Automatic final : public Iteration {
 }  // namespace
 
 Method automatic() {
-  Method method{.name = "auto",
-                .kind = Kind::kMethod,
-                .summary = "gs, newton-ac, aclm and ipm in turns; the one that gets on goes on",
-                .parameters = {},
-                .make = {}};
+  Method method{
+      .name = "auto",
+      .kind = Kind::kMethod,
+      .summary = "gs, prox-newton, newton-ac, aclm and ipm in turns; the one that gets on goes on",
+      .parameters = {},
+      .make = {}};
   method.make = [method](const Values& values) {
     auto run = [](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
                   Monitor& monitor) {

@@ -16,8 +16,7 @@ using State = Iteration::State;
 
 constexpr double kSecondsPerRow = 1e-6;  // of an iteration without its linear system (work_s)
 constexpr double kFirstAlpha = 1e-3, kLeastAlpha = 1e-8, kLargestAlpha = 1e3;
-// A proximal step is solved when its residual is below this share of the way it
-// went.
+// A proximal step is solved when its residual is below this share of the way it went.
 constexpr double kInexactness = 1e-2;
 // A proximal step that took no more Newton steps than this was easy.
 constexpr int kEasy = 6;
@@ -139,8 +138,7 @@ class Ssnal final : public ConvexIteration {
     return sum;
   }
 
-  // phi is convex along the step, so a step is long enough where its slope has
-  // mostly gone.
+  // phi is convex along the step, so a step is long enough where its slope has mostly gone.
   void step(const Eigen::VectorXd& dr, const Eigen::VectorXd& du) {
     const double start = slope(0.0, dr, du);
     double s = 1.0, low = 0.0, high = 1.0;
@@ -199,7 +197,7 @@ class Ssnal final : public ConvexIteration {
   Eigen::VectorXd P_, uP_;
 };
 
-// F, c and the letters are those of ssnal.h; P_ = F + r at r_.
+// The letters are those of ssnal.h; P_ is F + r at r_.
 class ProximalNewton final : public Iteration {
  public:
   explicit ProximalNewton(const Problem& problem)
@@ -244,8 +242,7 @@ class ProximalNewton final : public Iteration {
   static constexpr double kSolved = 0.1;
   static constexpr int kFew = 4;  // Newton steps of an easy one
   static constexpr int kMostSteps = 10, kMostFailures = 5, kHalvings = 6;
-  static constexpr double kFastFall = 0.2, kSlowFall = 0.5,
-                          kRise = 4.0;  // of alpha
+  static constexpr double kFastFall = 0.2, kSlowFall = 0.5, kRise = 4.0;  // of alpha
   static constexpr int kKrylov = 30;
   static constexpr double kKrylovResidual = 0.1;
   // A GMRES iteration, as a share of a factorisation and a few solves.
@@ -274,6 +271,7 @@ class ProximalNewton final : public Iteration {
   }
 
   bool solved() const { return size(P_ - r_) <= kSolved * alpha_ * size(P_ - c_); }
+
   void next_centre() {
     alpha_ = std::max(alpha_ * (steps_ <= kFew ? kFastFall : kSlowFall), kLeastAlpha);
     failures_ = 0;

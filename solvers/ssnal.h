@@ -35,10 +35,11 @@ std::unique_ptr<ConvexIteration> make_ssnal(const problems::Problem& problem);
 /// The step is halved, up to 6 times, until |F| is below the larger of its last two values.
 ///
 /// Newton converges from where eta / alpha is small, and a solved proximal step leaves eta near
-/// alpha times the way it went. So alpha starts at 3 eta, falls after every solved step, more after
-/// an easy one, and grows fourfold, from the best iterate, where 10 Newton steps were not enough.
+/// alpha times its length. So alpha starts at 3 eta, falls after every solved step, more after an
+/// easy one, and grows fourfold, from the best iterate, where 10 Newton steps were not enough.
 /// Stalls when that has happened 5 times in a row. No proof: F has none of the convexity above.
-/// One iteration is one Newton step: a factorisation, the GMRES iterations, three products with W.
+///
+/// One iteration is one Newton step: a factorisation, the GMRES iterations, a product with W.
 /// Source  ours; Newton inside a proximal point is RR-9118's PPA-NSN (solvers/newton/newton.h).
 std::unique_ptr<Iteration> make_proximal_newton(const problems::Problem& problem);
 

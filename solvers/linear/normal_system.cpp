@@ -14,8 +14,7 @@ using problems::SparseMatrix;
 using Matrix = Cholesky::Matrix;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// The rows of H cone by cone: which dofs a cone touches, and its dense block on
-// them.
+// The rows of H cone by cone: which dofs a cone touches, and its dense block on them.
 class ConeRows {
  public:
   explicit ConeRows(const Problem& problem) {
@@ -63,13 +62,11 @@ class ConeRows {
   std::vector<double> values_;
 };
 
-// Lower triangle of the pattern of M + H^T E H with zeros stored, M's values
-// added later.
+// Lower triangle of the pattern of M + H^T E H with zeros stored, M's values added later.
 Matrix pattern(const Problem& problem, const ConeRows& rows) {
   const int dofs = problem.dofs();
   std::vector<std::vector<int>> columns(static_cast<std::size_t>(dofs));
-  std::vector<std::size_t> limits(columns.size(),
-                                  512);  // length at which a column is settled
+  std::vector<std::size_t> limits(columns.size(), 512);  // length at which a column is settled
   auto settle = [](std::vector<int>& column) {
     std::sort(column.begin(), column.end());
     column.erase(std::unique(column.begin(), column.end()), column.end());
@@ -105,8 +102,7 @@ Matrix pattern(const Problem& problem, const ConeRows& rows) {
   return lower;
 }
 
-// Adds the lower triangle of `dense` at rows and columns `dofs`, all of which
-// are stored.
+// Adds the lower triangle of `dense` at rows and columns `dofs`, all of which are stored.
 void add_lower(std::span<const int> dofs, const Eigen::MatrixXd& dense, Matrix& lower) {
   for (std::size_t j = 0; j < dofs.size(); ++j) {
     int at = lower.outerIndexPtr()[dofs[j]];
