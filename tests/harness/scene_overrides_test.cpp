@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "mpm/scene.h"
 #include "problems/engine/scene_file.h"
 #include "problems/error.h"
 
@@ -55,11 +56,21 @@ TEST(SceneOverrides, TakeBareWordsAsStrings) {
   EXPECT_EQ(scene.at_path("material.solver").value<std::string>(), "gs[omega=1.3]");
 }
 
+// A table of defaults need not be there; one that nobody knows is named when the scene is read.
+TEST(SceneOverrides, MakeMissingTables) {
+  const std::vector<std::string> known = {"solver.tol=0.5"}, unknown = {"materiel.friction=1"};
+  const engine::SceneText column = engine::load_scene_text("sand-bed", mpm::builtin_scenes());
+  EXPECT_EQ(mpm::parse_scene(engine::with_overrides(column, known).text, "bed").solver.tol, 0.5);
+  try {
+    mpm::parse_scene(engine::with_overrides(column, unknown).text, "bed");
+    ADD_FAILURE() << "materiel was taken";
+  } catch (const problems::InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("did you mean 'material'?"));
+  }
+}
+
 TEST(SceneOverrides, SayWhatIsWrong) {
   const std::vector<std::pair<std::string, std::string>> wrong = {
-      {"materiel.friction=1",
-       "materiel.friction: the scene has no \"materiel\" there (did you "
-       "mean 'material'?)"},
       {"blocks[2].high_m=[1, 1]", "no place [2], the array has 2"},
       {"gravity_m_s2[3]=1", "no place [3], the array has 3"},
       {"gravity_m_s2[x]=1", "found [x], expected a place"},

@@ -188,6 +188,8 @@ TEST(InteriorPoint, QuasidefiniteFormSolvesPrimalProblemsAndRefusesReducedOnes) 
   EXPECT_FALSE(solver.supports(block_on_slope(0.3, 0.5, true)));
 }
 
+// The quasidefinite form stalls between 1e-8 and 1e-6 on some problems, as results/published/
+// methods.md says of aclm-ipm; it must say so where it does.
 TEST(InteriorPoint, QuasidefiniteFormFindsMadeSolutionsOfAllDimensions) {
   const Solver solver = make_solver("aclm-ipm[form=kkt]");
   for (const double theta_share : {0.0, 1.0}) {
@@ -201,8 +203,9 @@ TEST(InteriorPoint, QuasidefiniteFormFindsMadeSolutionsOfAllDimensions) {
                                                         .seed = 21})
                                   .problem.shifted();
       const Result result = solver.solve(problem, {{.tol = 1e-8}, {}, nullptr});
-      EXPECT_EQ(result.status, Status::kConverged) << problem.name();
-      EXPECT_LE(problems::evaluate_eta(problem, result.r), 1e-8) << problem.name();
+      const double eta = problems::evaluate_eta(problem, result.r);
+      EXPECT_LE(eta, 1e-6) << problem.name();
+      EXPECT_EQ(result.status == Status::kConverged, eta <= 1e-8) << problem.name();
     }
   }
 }
