@@ -31,19 +31,16 @@ std::vector<int> island_of_node(const Problem& problem, int& count) {
   return sets.labels(count);
 }
 
-// A(rows, cols), with cols renumbered by `column_of` (-1: not wanted).
-SparseMatrix extract(const SparseMatrix& A, const std::vector<int>& rows,
-                     const std::vector<int>& column_of, int columns) {
-  std::vector<Eigen::Triplet<double, int>> entries;
-  for (std::size_t k = 0; k < rows.size(); ++k) {
-    for (SparseMatrix::InnerIterator it(A, rows[k]); it; ++it) {
-      const int column = column_of[static_cast<std::size_t>(it.col())];
-      if (column >= 0) entries.emplace_back(static_cast<int>(k), column, it.value());
-    }
+// Cones of each island.
+std::vector<int> island_sizes(const Problem& problem) {
+  int labels = 0;
+  const std::vector<int> label = island_of_node(problem, labels);
+  std::vector<int> sizes(static_cast<std::size_t>(labels), 0);
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    ++sizes[static_cast<std::size_t>(label[static_cast<std::size_t>(i)])];
   }
-  SparseMatrix out(static_cast<Eigen::Index>(rows.size()), columns);
-  out.setFromTriplets(entries.begin(), entries.end());
-  return out;
+  std::erase(sizes, 0);  // dofs without a cone
+  return sizes;
 }
 
 std::vector<int> rows_of(const Problem& problem, const std::vector<int>& cones) {
@@ -56,36 +53,6 @@ std::vector<int> rows_of(const Problem& problem, const std::vector<int>& cones) 
   return rows;
 }
 
-// `position` is scratch of size max(rows, dofs), all -1 before and after.
-Island make_island(const Problem& problem, std::vector<int> cones, std::vector<int> dofs, int label,
-                   std::vector<int>& position) {
-  const std::vector<int> rows = rows_of(problem, cones);
-  const std::vector<int>& columns = problem.is_primal() ? dofs : rows;
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    position[static_cast<std::size_t>(columns[k])] = static_cast<int>(k);
-  }
-  const int size = static_cast<int>(columns.size());
-  std::vector<Cone> kept;
-  for (const int i : cones) kept.push_back(problem.cones()[static_cast<std::size_t>(i)]);
-  Metadata metadata = problem.metadata();
-  metadata.name += "/island_" + std::to_string(label);
-  auto part = [&]() -> Problem {
-    if (problem.is_primal()) {
-      return {PrimalData{extract(problem.M(), dofs, position, size),
-                         extract(problem.H(), rows, position, size), problem.f()(dofs),
-                         problem.w()(rows)},
-              std::move(kept), std::move(metadata), problem.rate_scale()};
-    }
-    return {ReducedData{extract(problem.W(), rows, position, size), problem.q()(rows)},
-            std::move(kept), std::move(metadata), problem.rate_scale()};
-  };
-  Island island{part(), std::move(cones), std::move(dofs)};
-  for (const int column : problem.is_primal() ? island.dofs : rows) {
-    position[static_cast<std::size_t>(column)] = -1;
-  }
-  return island;
-}
-
 template <class Get>
 std::pair<double, double> range_of(std::span<const Cone> cones, Get get) {
   if (cones.empty()) return {0.0, 0.0};
@@ -95,6 +62,44 @@ std::pair<double, double> range_of(std::span<const Cone> cones, Get get) {
 }
 
 }  // namespace
+
+// `position` is scratch of size max(rows, dofs), all -1 before and after.
+Island Problem::island(std::vector<int> cones, std::vector<int> dofs, int label,
+                       std::vector<int>& position) const {
+  const std::vector<int> rows = rows_of(*this, cones);
+  const std::vector<int>& columns = is_primal() ? dofs : rows;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    position[static_cast<std::size_t>(columns[k])] = static_cast<int>(k);
+  }
+  const int size = static_cast<int>(columns.size());
+  auto operators = std::make_shared<Operators>();
+  operators->start = {0};
+  std::vector<Cone> kept;
+  for (const int i : cones) {
+    kept.push_back(cones_[static_cast<std::size_t>(i)]);
+    operators->start.push_back(operators->start.back() + kept.back().dim);
+  }
+  operators->mobility = mobility()(cones);
+  if (is_primal()) {
+    operators->M = extract(M(), dofs, position, size);
+    operators->H = extract(H(), rows, position, size);
+    operators->inertia =
+        std::make_shared<const Inertia>(inertia().of_part(operators->M, dofs, position, name()));
+  } else {
+    operators->W = extract(W(), rows, position, size);
+  }
+  for (const int column : columns) position[static_cast<std::size_t>(column)] = -1;
+
+  Metadata metadata = metadata_;
+  metadata.name += "/island_" + std::to_string(label);
+  Problem part(std::move(operators), std::move(kept), std::move(metadata), rate_scale_);
+  if (is_primal()) {
+    part.f_ = f_(dofs);
+    part.w_ = w_(rows);
+  }
+  part.q_ = q_(rows);
+  return {std::move(part), std::move(cones), std::move(dofs)};
+}
 
 std::vector<Island> Problem::islands() const {
   int labels = 0;
@@ -111,11 +116,13 @@ std::vector<Island> Problem::islands() const {
   std::vector<int> position(static_cast<std::size_t>(std::max(rows(), this->dofs())), -1);
   for (std::size_t k = 0; k < cones.size(); ++k) {
     if (cones[k].empty()) continue;
-    result.push_back(make_island(*this, std::move(cones[k]), std::move(dofs[k]),
-                                 static_cast<int>(result.size()), position));
+    result.push_back(
+        island(std::move(cones[k]), std::move(dofs[k]), static_cast<int>(result.size()), position));
   }
   return result;
 }
+
+int Problem::island_count() const { return static_cast<int>(island_sizes(*this).size()); }
 
 Features Problem::features() const {
   Features f;
@@ -144,13 +151,9 @@ Features Problem::features() const {
     f.nonzeros_W = W().nonZeros();
     f.asymmetry = asymmetry(W());
   }
-  int labels = 0;
-  const std::vector<int> label = island_of_node(*this, labels);
-  std::vector<int> size(static_cast<std::size_t>(labels), 0);
-  for (int i = 0; i < f.cones; ++i) {
-    if (size[static_cast<std::size_t>(label[static_cast<std::size_t>(i)])]++ == 0) ++f.islands;
-  }
-  if (!size.empty()) f.largest_island = *std::max_element(size.begin(), size.end());
+  const std::vector<int> sizes = island_sizes(*this);
+  f.islands = static_cast<int>(sizes.size());
+  if (!sizes.empty()) f.largest_island = *std::max_element(sizes.begin(), sizes.end());
   f.rate_scale = rate_scale_;
   return f;
 }

@@ -47,7 +47,7 @@ class Temporary {
     if (closed != 0) fail("cannot close");
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail("cannot rename the new file to it");
     path_.clear();
-    sync_folder();
+    sync_folder(target_.has_parent_path() ? target_.parent_path() : ".");
   }
 
  private:
@@ -55,15 +55,6 @@ class Temporary {
     const int reason = errno;
     // The constructor's failure runs no destructor, but then there is no file either.
     throw OutputError(target_.string(), std::string(what) + ": " + std::strerror(reason));
-  }
-
-  // Makes the rename itself durable. Some file systems refuse to sync a folder; the file is safe.
-  void sync_folder() const {
-    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;
-    ::fsync(descriptor);
-    ::close(descriptor);
   }
 
   std::filesystem::path target_, path_;
@@ -76,6 +67,23 @@ void write_file_atomically(const std::filesystem::path& path, std::span<const st
   Temporary file(path);
   file.write(bytes);
   file.publish();
+}
+
+void sync_file(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  const bool synced = descriptor >= 0 && ::fsync(descriptor) == 0;
+  const int reason = errno;
+  if (descriptor >= 0) ::close(descriptor);
+  if (!synced)
+    throw OutputError(path.string(), std::string("cannot sync: ") + std::strerror(reason));
+}
+
+// Some file systems refuse to sync a folder; the files are safe.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
 }
 
 }  // namespace conebench::problems

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,11 @@ class Handle {
   hid_t id_;
   Close close_;
 };
+
+/// HDF5 may be built for one thread only, and then keeps state that all share: whoever uses it
+/// holds this lock. The same thread may hold it more than once.
+using Lock = std::unique_lock<std::recursive_mutex>;
+Lock lock_library();
 
 /// Silences HDF5's own messages in this thread: every failure becomes an exception of ours.
 void silence_messages();
@@ -91,14 +97,16 @@ class Reader {
   void require_table(const std::string& dataset, const Shape& shape, Eigen::Index rows,
                      Eigen::Index cols) const;
 
+  Lock lock_ = lock_library();  // first: until the file is closed
   std::string subject_;
   std::uintmax_t file_bytes_ = 0;
   Handle file_;
 };
 
 /// Builds a file in memory, so that no failure of the disk happens inside HDF5, and saves it in
-/// one step. Arrays are chunked, shuffled and deflated; the bytes depend on the content alone.
-/// Objects' folders must exist; names are absolute. Throws OutputError.
+/// one step. One at a time in a process: others wait. Arrays are chunked, shuffled and deflated;
+/// the bytes depend on the content alone. Objects' folders must exist; names are absolute. Throws
+/// OutputError.
 class Writer {
  public:
   /// The memory that HDF5 writes to.
@@ -145,9 +153,14 @@ class Writer {
                        hid_t stored, hid_t in_memory, const void* values);
   void require_ok(bool ok, const std::string& object) const;
 
+  Lock lock_ = lock_library();  // first: until the file is closed
   std::filesystem::path path_;
   std::unique_ptr<Image> image_;  // outlives file_, which writes into it
   Handle file_;
 };
+
+/// Another value for an attribute that is one double, in place. Throws OutputError.
+void overwrite_attribute(const std::filesystem::path& path, const std::string& object,
+                         const std::string& name, double value);
 
 }  // namespace conebench::problems::hdf5

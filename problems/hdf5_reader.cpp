@@ -64,6 +64,11 @@ std::string read_text(const Handle& type, const Read& read) {
 
 }  // namespace
 
+Lock lock_library() {
+  static std::recursive_mutex mutex;
+  return Lock(mutex);
+}
+
 void silence_messages() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
 Reader::Reader(const std::filesystem::path& path)

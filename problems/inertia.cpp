@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 
 #include "problems/error.h"
 #include "problems/union_find.h"
@@ -55,6 +56,7 @@ struct Inertia::Factor {
   Eigen::SimplicialLDLT<ColumnMajor> cholesky;
 };
 
+Inertia::Inertia() = default;
 Inertia::~Inertia() = default;
 Inertia::Inertia(Inertia&&) noexcept = default;
 
@@ -108,6 +110,25 @@ Inertia::Inertia(const SparseMatrix& M, std::string_view subject) {
   require(
       factor_->cholesky.info() == Eigen::Success && factor_->cholesky.vectorD().minCoeff() > 0.0,
       subject, "M is not positive definite, expected M symmetric positive definite");
+}
+
+Inertia Inertia::of_part(const SparseMatrix& M_part, std::span<const int> dofs,
+                         std::span<const int> position, std::string_view subject) const {
+  if (!block_diagonal()) return Inertia(M_part, subject);
+  Inertia part;
+  part.root_ = extract(root_, dofs, position, static_cast<int>(dofs.size()));
+  // Labels grow with each component's first dof, so their ranks are the part's labels.
+  for (const int dof : dofs) {
+    part.component_of_.push_back(component_of_[static_cast<std::size_t>(dof)]);
+  }
+  std::vector<int> kept = part.component_of_;
+  std::ranges::sort(kept);
+  kept.erase(std::ranges::unique(kept).begin(), kept.end());
+  part.component_count_ = static_cast<int>(kept.size());
+  for (int& label : part.component_of_) {
+    label = static_cast<int>(std::ranges::lower_bound(kept, label) - kept.begin());
+  }
+  return part;
 }
 
 Eigen::VectorXd Inertia::solve(const Eigen::VectorXd& b) const {

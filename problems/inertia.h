@@ -21,6 +21,11 @@ class Inertia {
   static constexpr int kLargestBlock = 12;
 
   Inertia(const SparseMatrix& M, std::string_view subject);
+
+  /// The same of M_part = M(dofs, dofs), where `dofs`, increasing, hold whole components and
+  /// position[dofs[k]] = k. Cost: a copy when block_diagonal(), else as the constructor's.
+  Inertia of_part(const SparseMatrix& M_part, std::span<const int> dofs,
+                  std::span<const int> position, std::string_view subject) const;
   ~Inertia();
   Inertia(Inertia&&) noexcept;
 
@@ -40,6 +45,8 @@ class Inertia {
 
  private:
   struct Factor;
+
+  Inertia();
 
   std::vector<int> component_of_;
   int component_count_ = 0;

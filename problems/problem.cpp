@@ -5,15 +5,15 @@
 #include <cmath>
 
 #include "problems/error.h"
+#include "problems/scaled_rows.h"
 
 namespace conebench::problems {
 namespace {
 
-// Rows handled at a time where a temporary of the size of H would otherwise be needed.
-constexpr int kChunkRows = 1 << 16;
-
 void require_finite_values(std::span<const double> values, std::string_view subject,
                            std::string_view what) {
+  const auto size = static_cast<Eigen::Index>(values.size());
+  if (Eigen::Map<const Eigen::VectorXd>(values.data(), size).allFinite()) return;
   for (std::size_t k = 0; k < values.size(); ++k) {
     require(std::isfinite(values[k]), subject, what, "[", k, "] is ", values[k],
             ", expected a finite number");
@@ -66,33 +66,15 @@ double spectral_norm(const Eigen::MatrixXd& A) {
   return std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
 }
 
-// The common case without heap: |A|_2 of a 3 x 3 matrix.
-double spectral_norm3(const Eigen::Matrix3d& A) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A.transpose() * A,
-                                                             Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, eigen.eigenvalues().maxCoeff()));
-}
-
-double spectral_norm_of(const Eigen::MatrixXd& A) {
-  return A.rows() == 3 ? spectral_norm3(A) : spectral_norm(A);
-}
-
-// S S^T for rows [first, first + dim) of S, whose columns are sorted.
-void gram(const SparseMatrix& S, int first, int dim, Eigen::MatrixXd& out) {
-  out.resize(dim, dim);
-  for (int a = 0; a < dim; ++a) {
-    for (int b = a; b < dim; ++b) {
-      double sum = 0.0;
-      SparseMatrix::InnerIterator x(S, first + a), y(S, first + b);
-      while (x && y) {
-        if (x.col() == y.col()) sum += x.value() * y.value();
-        const bool step_x = x.col() <= y.col(), step_y = y.col() <= x.col();
-        if (step_x) ++x;
-        if (step_y) ++y;
-      }
-      out(a, b) = out(b, a) = sum;
-    }
+// The same for a symmetric A; no heap for the common size.
+double symmetric_norm(const Eigen::MatrixXd& A) {
+  if (A.size() == 1) return std::abs(A(0, 0));
+  if (A.rows() != 3) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(A, Eigen::EigenvaluesOnly);
+    return eigen.eigenvalues().cwiseAbs().maxCoeff();
   }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(A, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues().cwiseAbs().maxCoeff();
 }
 
 void floor_mobility(Eigen::VectorXd& mobility) {
@@ -102,21 +84,14 @@ void floor_mobility(Eigen::VectorXd& mobility) {
 
 Eigen::VectorXd primal_mobility(const SparseMatrix& H, const SparseMatrix& inverse_root,
                                 std::span<const int> start) {
-  const int cones = static_cast<int>(start.size()) - 1;
-  Eigen::VectorXd mobility(cones);
+  Eigen::VectorXd mobility(static_cast<Eigen::Index>(start.size()) - 1);
+  ScaledRows rows(H, inverse_root);
   Eigen::MatrixXd block;
-  for (int i = 0; i < cones;) {
+  for (Eigen::Index i = 0; i < mobility.size(); ++i) {
     const int first = start[static_cast<std::size_t>(i)];
-    int end = i;
-    while (end < cones && start[static_cast<std::size_t>(end) + 1] - first <= kChunkRows) ++end;
-    end = std::max(end, i + 1);
-    const int rows = start[static_cast<std::size_t>(end)] - first;
-    const SparseMatrix scaled = SparseMatrix(H.middleRows(first, rows)) * inverse_root;
-    for (; i < end; ++i) {
-      const int begin = start[static_cast<std::size_t>(i)];
-      gram(scaled, begin - first, start[static_cast<std::size_t>(i) + 1] - begin, block);
-      mobility(i) = spectral_norm_of(block);
-    }
+    rows.load(first, start[static_cast<std::size_t>(i) + 1] - first);
+    block = rows.S().lazyProduct(rows.S().transpose());
+    mobility(i) = symmetric_norm(block);
   }
   floor_mobility(mobility);
   return mobility;
@@ -127,7 +102,7 @@ Eigen::VectorXd reduced_mobility(const SparseMatrix& W, std::span<const int> sta
   for (Eigen::Index i = 0; i < mobility.size(); ++i) {
     const int first = start[static_cast<std::size_t>(i)];
     const int dim = start[static_cast<std::size_t>(i) + 1] - first;
-    mobility(i) = spectral_norm_of(Eigen::MatrixXd(W.block(first, first, dim, dim)));
+    mobility(i) = spectral_norm(Eigen::MatrixXd(W.block(first, first, dim, dim)));
   }
   floor_mobility(mobility);
   return mobility;
@@ -149,8 +124,8 @@ Problem::Problem(PrimalData data, std::vector<Cone> cones, Metadata metadata,
   require_shape(data.H, rows, dofs, name(), "H");
   require_size(f_, dofs, name(), "f");
   require_size(w_, rows, name(), "w");
-  operators->M = canonical(data.M);
-  operators->H = canonical(data.H);
+  operators->M = canonical(std::move(data.M));
+  operators->H = canonical(std::move(data.H));
   require_finite(operators->M, name(), "M.data");
   require_finite(operators->H, name(), "H.data");
   require_finite(f_, name(), "f");
@@ -173,7 +148,7 @@ Problem::Problem(ReducedData data, std::vector<Cone> cones, Metadata metadata,
   const int rows = operators->start.back();
   require_shape(data.W, rows, rows, name(), "W");
   require_size(q_, rows, name(), "q");
-  operators->W = canonical(data.W);
+  operators->W = canonical(std::move(data.W));
   require_finite(operators->W, name(), "W.data");
   require_finite(q_, name(), "q");
   const double skew = asymmetry(operators->W);
@@ -189,6 +164,13 @@ Problem::Problem(ReducedData data, std::vector<Cone> cones, Metadata metadata,
   operators_ = std::move(operators);
   set_rate_scale(rate_scale);
 }
+
+Problem::Problem(std::shared_ptr<const Operators> operators, std::vector<Cone> cones,
+                 Metadata metadata, double rate_scale)
+    : operators_(std::move(operators)),
+      cones_(std::move(cones)),
+      metadata_(std::move(metadata)),
+      rate_scale_(rate_scale) {}
 
 Problem Problem::with_metadata(Metadata metadata) const {
   Problem copy = *this;
@@ -302,25 +284,23 @@ Problem Problem::shifted() const {
     standard.q_ = q_ - W() * shift;
   }
   for (Cone& cone : standard.cones_) cone.kappa = 0.0;
-  standard.set_rate_scale(rate_scale_);
   return standard;
 }
 
 void Problem::set_rate_scale(std::optional<double> given) {
-  const double of_data = compute_rate_scale();
-  rate_scale_ = given.value_or(0.0) > 0.0 ? *given : of_data;
-  rate_scale_is_of_data_ = rate_scale_ == of_data;
+  rate_scale_ = given.value_or(0.0) > 0.0 ? *given : compute_rate_scale();
 }
 
 double Problem::compute_rate_scale() const {
   Eigen::VectorXd carried = Eigen::VectorXd::Zero(rows());
   if (is_primal()) carried = H().cwiseAbs() * inertia().solve(f_).cwiseAbs();
   double violation = 0.0, size = 0.0;
+  Eigen::VectorXd wanted;
   for (int i = 0; i < cone_count(); ++i) {
     const Cone& cone = cones_[static_cast<std::size_t>(i)];
     const double pull = mobility()(i) * cone.kappa;
     const double rate = q_.segment(start(i), cone.dim).norm();
-    Eigen::VectorXd wanted = q_.segment(start(i), cone.dim);
+    wanted = q_.segment(start(i), cone.dim);
     add_de_saxce(cone.theta, wanted);
     wanted = -wanted;
     project(cone.mu, wanted);

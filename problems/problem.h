@@ -109,7 +109,8 @@ class Problem {
   double rate_scale() const { return rate_scale_; }
   /// False when the data as they stand (a shifted problem's, an island's) would give another U; a
   /// file then carries U, and it counts as content.
-  bool rate_scale_is_of_data() const { return rate_scale_is_of_data_; }
+  /// Cost: one pass over the matrices.
+  bool rate_scale_is_of_data() const { return rate_scale_ == compute_rate_scale(); }
 
   /// True when every kappa is 0.
   bool is_standard() const;
@@ -120,7 +121,10 @@ class Problem {
   Problem shifted() const;
 
   /// The connected components, each a problem of its own; dofs without a cone are left out.
+  /// Cost: one copy; nothing is checked or factorised again where M is block diagonal.
   std::vector<Island> islands() const;
+  /// How many there are. Cost: one pass over H, or W.
+  int island_count() const;
   Features features() const;
 
  private:
@@ -131,16 +135,21 @@ class Problem {
     Eigen::VectorXd mobility;
   };
 
+  /// The parts of a checked problem: taken as they are.
+  Problem(std::shared_ptr<const Operators> operators, std::vector<Cone> cones, Metadata metadata,
+          double rate_scale);
+
   void check_rows(Eigen::Index rows) const;
   double compute_rate_scale() const;
   void set_rate_scale(std::optional<double> given);
+  Island island(std::vector<int> cones, std::vector<int> dofs, int label,
+                std::vector<int>& position) const;
 
   std::shared_ptr<const Operators> operators_;
   Eigen::VectorXd f_, w_, q_;
   std::vector<Cone> cones_;
   Metadata metadata_;
   double rate_scale_ = 0.0;
-  bool rate_scale_is_of_data_ = true;
 };
 
 /// A connected component of a problem.

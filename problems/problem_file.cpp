@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "problems/atomic_file.h"
 #include "problems/compressed.h"
 #include "problems/error.h"
 #include "problems/fclib_view.h"
@@ -189,6 +190,11 @@ void write_problem_file(const std::filesystem::path& path, const ProblemFile& fi
   writer.save();
 }
 
+void set_sampling_weight(const std::filesystem::path& path, double weight) {
+  hdf5::overwrite_attribute(path, "/", "sampling_weight", weight);
+  sync_file(path);
+}
+
 void write_external_problem(const std::filesystem::path& path, const Problem& standard,
                             const Eigen::VectorXd& guess) {
   hdf5::Writer writer(path);
@@ -226,8 +232,17 @@ void write_solution_file(const std::filesystem::path& path, const Problem& probl
   writer.save();
 }
 
-Eigen::VectorXd read_solution_r(const std::filesystem::path& path, Eigen::Index rows) {
-  return hdf5::Reader(path).vector("/solution/r", rows);
+ForeignAnswer read_foreign_answer(const std::filesystem::path& path, Eigen::Index rows) {
+  const hdf5::Reader reader(path);
+  ForeignAnswer answer{.r = reader.vector("/solution/r", rows)};
+  if (reader.has_attribute("/solution", "iterations")) {
+    answer.iterations = reader.whole_number("/solution", "iterations");
+    if (answer.iterations < 0) {
+      reader.fail("/solution",
+                  "iterations = " + std::to_string(answer.iterations) + ", expected >= 0");
+    }
+  }
+  return answer;
 }
 
 }  // namespace conebench::problems

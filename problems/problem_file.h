@@ -48,8 +48,12 @@ struct ProblemFile {
 /// Throws OutputError (unwritable, disk full) and then leaves nothing behind.
 void write_problem_file(const std::filesystem::path& path, const ProblemFile& file);
 
-/// The same for another program to solve: the standard problem, its guess (empty: none), and root
-/// attribute `rate_scale` in any case.
+/// Changes how many steps a file of ours says that it stands for, in place, and syncs it. The
+/// problem and its hash stay. Not atomic: for files that nobody reads yet. Throws OutputError.
+void set_sampling_weight(const std::filesystem::path& path, double weight);
+
+/// The same as write_problem_file() for another program to solve: the standard problem, its guess
+/// (empty: none), and root attribute `rate_scale` in any case.
 void write_external_problem(const std::filesystem::path& path, const Problem& standard,
                             const Eigen::VectorXd& guess);
 
@@ -60,8 +64,14 @@ ProblemFile read_problem_file(const std::filesystem::path& path);
 void write_solution_file(const std::filesystem::path& path, const Problem& problem,
                          const Solution& solution);
 
-/// /solution/r of a file that another program wrote, with `rows` finite numbers. Throws InputError.
-Eigen::VectorXd read_solution_r(const std::filesystem::path& path, Eigen::Index rows);
+/// What a program of somebody else wrote.
+struct ForeignAnswer {
+  Eigen::VectorXd r;            ///< /solution/r
+  std::int64_t iterations = 0;  ///< attribute `iterations` of /solution; 0 when there is none
+};
+
+/// Throws InputError unless r has `rows` finite numbers and the iterations are a whole number >= 0.
+ForeignAnswer read_foreign_answer(const std::filesystem::path& path, Eigen::Index rows);
 
 /// SHA-256 (hex) over the canonical content of the problem: little-endian numbers, rows sorted,
 /// stored zeros dropped, duplicates summed. Twins in two formats hash alike; names do not count.

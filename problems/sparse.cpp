@@ -1,5 +1,7 @@
 #include "problems/sparse.h"
 
+#include <algorithm>
+#include <utility>
 #include <vector>
 
 namespace conebench::problems {
@@ -19,20 +21,55 @@ bool is_canonical(const SparseMatrix& matrix) {
 
 }  // namespace
 
-SparseMatrix canonical(const SparseMatrix& matrix) {
+SparseMatrix canonical(SparseMatrix matrix) {
   if (is_canonical(matrix)) return matrix;
-  std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(static_cast<std::size_t>(matrix.nonZeros()));
+  matrix.makeCompressed();
+  int* const columns = matrix.innerIndexPtr();
+  double* const values = matrix.valuePtr();
+  int* const begin = matrix.outerIndexPtr();
+  std::vector<std::pair<int, double>> row_entries;
+  int next = 0;
   for (int row = 0; row < matrix.outerSize(); ++row) {
-    for (SparseMatrix::InnerIterator it(matrix, row); it; ++it) {
-      if (it.value() != 0.0) entries.emplace_back(row, static_cast<int>(it.col()), it.value());
+    row_entries.clear();
+    for (int k = begin[row]; k < begin[row + 1]; ++k) {
+      if (values[k] != 0.0) row_entries.emplace_back(columns[k], values[k]);
+    }
+    std::ranges::stable_sort(row_entries, {}, &std::pair<int, double>::first);
+    begin[row] = next;
+    for (std::size_t k = 0; k < row_entries.size();) {
+      const int column = row_entries[k].first;
+      double sum = 0.0;
+      for (; k < row_entries.size() && row_entries[k].first == column; ++k) {
+        sum += row_entries[k].second;
+      }
+      if (sum == 0.0) continue;
+      columns[next] = column;
+      values[next++] = sum;
     }
   }
-  SparseMatrix result(matrix.rows(), matrix.cols());
-  result.setFromTriplets(entries.begin(), entries.end());
-  result.prune([](auto, auto, double value) { return value != 0.0; });
-  result.makeCompressed();
-  return result;
+  begin[matrix.outerSize()] = next;
+  matrix.resizeNonZeros(next);
+  return matrix;
+}
+
+SparseMatrix extract(const SparseMatrix& A, std::span<const int> rows,
+                     std::span<const int> column_of, int columns) {
+  Eigen::Index capacity = 0;
+  for (const int row : rows) capacity += A.outerIndexPtr()[row + 1] - A.outerIndexPtr()[row];
+  SparseMatrix out(static_cast<Eigen::Index>(rows.size()), columns);
+  out.resizeNonZeros(capacity);
+  int next = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (SparseMatrix::InnerIterator it(A, rows[k]); it; ++it) {
+      const int column = column_of[static_cast<std::size_t>(it.col())];
+      if (column < 0) continue;
+      out.innerIndexPtr()[next] = column;
+      out.valuePtr()[next++] = it.value();
+    }
+    out.outerIndexPtr()[k + 1] = next;
+  }
+  out.resizeNonZeros(next);
+  return out;
 }
 
 double asymmetry(const SparseMatrix& matrix) {

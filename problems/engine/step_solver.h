@@ -30,6 +30,18 @@ struct StepAnswer {
 using StepSolver =
     std::function<StepAnswer(const problems::Problem& standard, const Eigen::VectorXd& guess)>;
 
+/// A step as an observer sees it afterwards. Valid during the call only.
+struct SolvedStep {
+  std::int64_t step = 0;  ///< 0 for the first
+  double time_s = 0.0;    ///< at the end of the step
+
+  /// Null when the step had no cone.
+  const problems::Problem* problem = nullptr;   ///< as it is, with kappa
+  const problems::Problem* standard = nullptr;  ///< problem->shifted()
+  const Eigen::VectorXd* guess = nullptr;       ///< r'
+  const StepAnswer* answer = nullptr;
+};
+
 /// Throws std::runtime_error naming scene, step and status unless the answer has `rows` finite
 /// numbers.
 void check_answer(const StepAnswer& answer, Eigen::Index rows, std::string_view scene,

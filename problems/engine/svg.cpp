@@ -50,15 +50,23 @@ void Window::widen() {
   high[0] += 0.5 * std::max(missing, 0.0);
 }
 
-Eigen::Matrix3d oblique_axes(const Eigen::Vector3d& gravity) {
+Eigen::Matrix3d level_axes(const Eigen::Vector3d& gravity) {
   const Eigen::Vector3d up =
       gravity.norm() > 0.0 ? Eigen::Vector3d(-gravity.normalized()) : Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d ahead =
       std::abs(up.y()) < 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
-  const Eigen::Vector3d right = ahead.cross(up).normalized();
-  const Eigen::Vector3d front = right.cross(up).normalized();  // towards the eye, level
-  const Eigen::Vector3d level = std::cos(kSide_rad) * front + std::sin(kSide_rad) * right;
-  const Eigen::Vector3d eye = std::cos(kAbove_rad) * level + std::sin(kAbove_rad) * up;
+  Eigen::Matrix3d axes;
+  axes.row(0) = ahead.cross(up).normalized();
+  axes.row(1) = up;
+  axes.row(2) = axes.row(0).cross(axes.row(1));
+  return axes;
+}
+
+Eigen::Matrix3d oblique_axes(const Eigen::Vector3d& gravity) {
+  const Eigen::Matrix3d level = level_axes(gravity);
+  const Eigen::Vector3d right = level.row(0), up = level.row(1), front = level.row(2);
+  const Eigen::Vector3d beside = std::cos(kSide_rad) * front + std::sin(kSide_rad) * right;
+  const Eigen::Vector3d eye = std::cos(kAbove_rad) * beside + std::sin(kAbove_rad) * up;
   Eigen::Matrix3d axes;
   axes.row(2) = eye;
   axes.row(0) = up.cross(eye).normalized();
@@ -69,6 +77,8 @@ Eigen::Matrix3d oblique_axes(const Eigen::Vector3d& gravity) {
 Camera::Camera(const Window& window)
     : window_(window), scale_((kWidth_px - 2.0 * kMargin_px) / (window.high[0] - window.low[0])) {}
 
+double Camera::width_px() const { return kWidth_px; }
+
 double Camera::height_px() const {
   return scale_ * (window_.high[1] - window_.low[1]) + 2.0 * kMargin_px + kCaption_px;
 }
@@ -77,6 +87,11 @@ Eigen::Vector2d Camera::operator()(const Eigen::Vector3d& x) const {
   const Eigen::Vector2d at = (window_.axes * x).head<2>();
   return {kMargin_px + scale_ * (at[0] - window_.low[0]),
           kMargin_px + kCaption_px + scale_ * (window_.high[1] - at[1])};
+}
+
+Eigen::Vector3d Camera::place(const Eigen::Vector3d& x) const {
+  const Eigen::Vector2d at = (*this)(x);
+  return {at[0], at[1], scale_ * depth(x)};
 }
 
 std::string svg_start(double height_px) {
@@ -102,9 +117,9 @@ std::string caption(const Caption& caption) {
       "<text x=\"{0:.0f}\" y=\"62\" fill=\"#455a64\">{3}</text>\n"
       "<rect x=\"{1:.0f}\" y=\"22\" width=\"220\" height=\"14\" fill=\"url(#scale)\"/>\n"
       "<g font-size=\"16\" fill=\"#455a64\"><text x=\"{1:.0f}\" y=\"56\">0</text>"
-      "<text x=\"{4:.0f}\" y=\"56\" text-anchor=\"middle\">{6}</text>"
+      "<text x=\"{4:.0f}\" y=\"35\" text-anchor=\"end\">{6}</text>"
       "<text x=\"{5:.0f}\" y=\"56\" text-anchor=\"end\">{7}</text></g>\n",
-      kMargin_px, left, escaped(caption.title), caption.moment, left + 110.0, left + 220.0,
+      kMargin_px, left, escaped(caption.title), caption.moment, left - 10.0, left + 220.0,
       caption.meaning, caption.end);
 }
 

@@ -28,7 +28,10 @@ struct Window {
   void widen();
 };
 
-/// Axes along +y, slightly from the side and from above, up against gravity (z without gravity).
+/// Axes straight along +y (+x where that is up), up against gravity (z without gravity).
+Eigen::Matrix3d level_axes(const Eigen::Vector3d& gravity);
+
+/// Axes along +y, slightly from the side and from above: level_axes() turned.
 Eigen::Matrix3d oblique_axes(const Eigen::Vector3d& gravity);
 
 /// World to picture, below the room that caption() takes.
@@ -37,10 +40,13 @@ class Camera {
   explicit Camera(const Window& window);
 
   double scale() const { return scale_; }  ///< [px/m]
+  double width_px() const;                 ///< of the whole picture
   double height_px() const;                ///< of the whole picture
   /// Towards the eye [m].
   double depth(const Eigen::Vector3d& x) const { return window_.axes.row(2).dot(x); }
   Eigen::Vector2d operator()(const Eigen::Vector3d& x) const;
+  /// The same, and the depth, to the same scale [px].
+  Eigen::Vector3d place(const Eigen::Vector3d& x) const;
 
  private:
   Window window_;

@@ -215,6 +215,47 @@ std::vector<std::string> TomlReader::texts(std::string_view key, std::size_t cou
   return values;
 }
 
+const toml::array& TomlReader::need_some(std::string_view key, std::string_view of) {
+  const std::string expected = fmt::format("an array of one or more {}", of);
+  const toml::node& node = need(key, expected);
+  const toml::array* array = node.as_array();
+  if (!array) fail(key, found_expected(type_in_words(node), expected));
+  if (array->empty()) fail(key, found_expected("an empty array", expected));
+  return *array;
+}
+
+std::vector<std::string> TomlReader::some_texts(std::string_view key) {
+  return texts(key, need_some(key, "strings").size());
+}
+
+std::vector<double> TomlReader::some_numbers(std::string_view key, Range range) {
+  return numbers(key, need_some(key, "numbers").size(), range);
+}
+
+std::vector<Eigen::Vector3d> TomlReader::some_vectors(std::string_view key) {
+  std::vector<Eigen::Vector3d> values;
+  for (const toml::node& entry : need_some(key, "arrays of 3 numbers")) {
+    const std::vector<double> x = to_numbers(entry, key, 3, Range::kAny);
+    values.emplace_back(x[0], x[1], x[2]);
+  }
+  return values;
+}
+
+std::vector<Eigen::Vector3i> TomlReader::some_triples(std::string_view key, std::int64_t low) {
+  const std::string expected = "arrays of 3 integers";
+  std::vector<Eigen::Vector3i> values;
+  for (const toml::node& entry : need_some(key, expected)) {
+    const toml::array* array = entry.as_array();
+    if (!array || array->size() != 3) fail(key, found_expected(type_in_words(entry), expected));
+    Eigen::Vector3i triple;
+    for (int k = 0; k < 3; ++k) {
+      triple[k] = static_cast<int>(to_integer((*array)[static_cast<std::size_t>(k)], key, low));
+    }
+    values.push_back(triple);
+  }
+  return values;
+}
+
 std::optional<TomlReader> TomlReader::table(std::string_view key) {
   const toml::node* node = find(key);
   if (!node) return std::nullopt;

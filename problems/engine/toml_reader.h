@@ -35,6 +35,14 @@ class TomlReader {
   Eigen::Vector2d interval(std::string_view key, Range range);
   std::vector<std::string> texts(std::string_view key, std::size_t count);
 
+  /// Arrays of any length, at least one.
+  std::vector<std::string> some_texts(std::string_view key);
+  std::vector<double> some_numbers(std::string_view key, Range range);
+
+  /// Arrays of three numbers, or of three integers >= low, at least one.
+  std::vector<Eigen::Vector3d> some_vectors(std::string_view key);
+  std::vector<Eigen::Vector3i> some_triples(std::string_view key, std::int64_t low);
+
   /// From `least` to `most` integers, each >= low.
   std::vector<std::int64_t> integers(std::string_view key, std::size_t least, std::size_t most,
                                      std::int64_t low);
@@ -57,6 +65,7 @@ class TomlReader {
   [[noreturn]] void fail(std::string_view key, std::string_view detail) const;
 
  private:
+  const toml::array& need_some(std::string_view key, std::string_view of);
   const toml::node* find(std::string_view key);
   const toml::node& need(std::string_view key, std::string_view expected);
   double to_number(const toml::node& node, std::string_view key, Range range) const;

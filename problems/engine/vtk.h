@@ -4,21 +4,26 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace conebench::engine {
 
-/// The text of a ParaView file (.vtp): XML poly data, one vertex cell a point. Call points() first,
-/// then one function a point array, then finish(). Each asks for its values by the point's index.
+/// The text of a ParaView file (.vtp): XML poly data. Call points() first, then one function an
+/// array, then finish(). Each asks for its values by index.
 class PolyData {
  public:
   using Vectors = std::function<Eigen::Vector3d(int)>;
   using Scalars = std::function<double(int)>;
   using Integers = std::function<int(int)>;
 
+  /// Points, each of them seen; arrays are of the points.
   explicit PolyData(int points);
+  /// Polygons, by indices of points; arrays are of the polygons. Keeps a reference to them.
+  PolyData(int points, std::span<const std::vector<int>> polygons);
 
   void points(const Vectors& value);
   void vectors(std::string_view name, const Vectors& value);
@@ -28,9 +33,14 @@ class PolyData {
 
  private:
   template <class Value>
-  void array(std::string_view type, std::string_view name, const Value& value);
+  void array(std::string_view type, std::string_view name, int count, const Value& value);
+  void points_as_cells();
+  void polygons_as_cells();
+
+  int cells() const { return polygons_ ? static_cast<int>(polygons_->size()) : points_; }
 
   int points_;
+  std::optional<std::span<const std::vector<int>>> polygons_;
   std::string text_;
 };
 

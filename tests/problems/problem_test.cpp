@@ -34,6 +34,24 @@ std::string error_of(const std::function<void()>& action) {
   return "no error";
 }
 
+// An island is not checked again: it must be what the constructor would have made of its parts.
+void expect_as_built_anew(const Problem& part) {
+  std::vector<Cone> cones(part.cones().begin(), part.cones().end());
+  const Problem anew =
+      part.is_primal()
+          ? Problem(PrimalData{part.M(), part.H(), part.f(), part.w()}, cones, part.metadata(),
+                    part.rate_scale())
+          : Problem(ReducedData{part.W(), part.q()}, cones, part.metadata(), part.rate_scale());
+  EXPECT_EQ(part.rows(), anew.rows());
+  EXPECT_EQ(part.mobility(), anew.mobility());
+  EXPECT_LE((part.q() - anew.q()).norm(), 1e-14 * anew.q().norm());
+  if (!part.is_primal()) return;
+  EXPECT_EQ(part.inertia().component_count(), anew.inertia().component_count());
+  EXPECT_TRUE(std::ranges::equal(part.inertia().component_of(), anew.inertia().component_of()));
+  EXPECT_EQ(Eigen::MatrixXd(part.inertia().inverse_root()),
+            Eigen::MatrixXd(anew.inertia().inverse_root()));
+}
+
 TEST(Problem, NamesWhatIsWrongInItsData) {
   const Eigen::Matrix3d I = Eigen::Matrix3d::Identity();
   const Eigen::Vector3d f(1.0, 2.0, 3.0);
@@ -160,9 +178,52 @@ TEST(Problem, IslandsPartitionTheConesAndKeepTheirRates) {
       }
     }
     EXPECT_LE((island.problem.rate(r(rows)) - u(rows)).norm(), 1e-12);
+    expect_as_built_anew(island.problem);
     seen += island.cones.size();
   }
   EXPECT_EQ(seen, cones.size());
+}
+
+TEST(Problem, IslandsOfReducedProblemsAreAsBuiltAnew) {
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(9, 9);
+  W.diagonal() << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  W(0, 8) = W(8, 0) = 0.5;  // cones 0 and 2
+  const Problem whole(ReducedData{sparse(W), Eigen::VectorXd::LinSpaced(9, -1.0, 1.0)},
+                      std::vector<Cone>(3, Cone::coulomb(3, 0.5, 0.1)), named("three"));
+  const std::vector<Island> islands = whole.islands();
+  ASSERT_EQ(islands.size(), 2u);
+  EXPECT_THAT(islands[0].cones, testing::ElementsAre(0, 2));
+  EXPECT_EQ(islands[0].problem.mobility()[1], 9.0);
+  for (const Island& island : islands) expect_as_built_anew(island.problem);
+}
+
+TEST(Sparse, CanonicalSortsSumsAndDrops) {
+  SparseMatrix A(3, 4);
+  A.resizeNonZeros(7);
+  const int begin[] = {0, 4, 4, 7}, columns[] = {3, 0, 3, 1, 2, 2, 1};
+  const double values[] = {1.0, 2.0, 4.0, 0.0, 5.0, -5.0, 6.0};
+  std::copy(std::begin(begin), std::end(begin), A.outerIndexPtr());
+  std::copy(std::begin(columns), std::end(columns), A.innerIndexPtr());
+  std::copy(std::begin(values), std::end(values), A.valuePtr());
+  const SparseMatrix B = canonical(A);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(3, 4);
+  expected(0, 0) = 2.0;
+  expected(0, 3) = 5.0;
+  expected(2, 1) = 6.0;
+  EXPECT_EQ(Eigen::MatrixXd(B), expected);
+  EXPECT_EQ(B.nonZeros(), 3);
+  EXPECT_EQ(B.innerIndexPtr()[0], 0);
+}
+
+TEST(Problem, MobilityIsTheNormOfTheDiagonalBlocks) {
+  const Problem problem = make_backwards({.cones = 15, .dims = {1, 2, 3, 6}, .seed = 4}).problem;
+  const Eigen::MatrixXd W = problem.delassus();
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim, at = problem.start(i);
+    const Eigen::MatrixXd block = W.block(at, at, dim, dim);
+    const double norm = block.jacobiSvd().singularValues()[0];
+    EXPECT_NEAR(problem.mobility()[i], norm, 1e-13 * norm) << i;
+  }
 }
 
 TEST(Problem, FeaturesCountWhatIsThere) {
