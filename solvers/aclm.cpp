@@ -20,6 +20,8 @@ constexpr int kInnerIterations = 60;
 // solution is looked for beside them, one step of the search an iteration.
 constexpr int kPatience = 100;
 constexpr double kProgress = 0.5;
+// eta of one t as a share of that before: a fixed point that contracts less is at its end.
+constexpr double kContraction = 0.9;
 // Steps of that search.
 constexpr int kSearch = 200;
 
@@ -40,6 +42,7 @@ class Aclm final : public Iteration {
     end_ = State::kRunning;
     search_.reset();
     searched_ = idle_ = 0;
+    eta_at_stall_ = std::numeric_limits<double>::infinity();
     eta_before_idling_ = best_eta_;
   }
 
@@ -72,13 +75,27 @@ class Aclm final : public Iteration {
     ++inner_iterations_;
     measure();
     if (state != State::kRunning) {
-      if (!(best_eta_ <= kProgress * last_best_)) return state;
-      pose_best();
+      if (stalled_on_this_shift_only()) {
+        next_shift();
+      } else if (best_eta_ <= kProgress * last_best_) {
+        pose_best();
+      } else {
+        return state;
+      }
     } else if (!convex_ &&
                (inner_->error() <= tolerance || inner_iterations_ >= kInnerIterations)) {
       next_shift();
     }
     return State::kRunning;
+  }
+
+  // The inner method stopped at an error well below eta: what eta lacks is the next t, not a better
+  // answer for this one. So it may go on for as long as eta falls from one such stop to the next.
+  bool stalled_on_this_shift_only() {
+    if (convex_ || !(inner_->error() <= kProgress * eta_)) return false;
+    if (!(eta_ <= kContraction * eta_at_stall_)) return false;
+    eta_at_stall_ = eta_;
+    return true;
   }
 
   // From the best iterate so far, with its own t.
@@ -134,8 +151,9 @@ class Aclm final : public Iteration {
   double eta_ = 0.0, last_ = 0.0;            // of the inner iterate; at the last change of t
   double best_eta_ = 0.0, last_best_ = 0.0;  // of best_; at the last change of t
   Eigen::VectorXd best_;
-  bool convex_;         // t is 0 for good
-  double least_ = 0.0;  // least |mapped - shift| since Anderson restarted
+  double eta_at_stall_ = 0.0;  // at the inner method's last stop that only t could mend
+  bool convex_;                // t is 0 for good
+  double least_ = 0.0;         // least |mapped - shift| since Anderson restarted
   int inner_iterations_ = 0;
   double work_s_ = 0.0;
   State end_ = State::kRunning;  // how the fixed point ended

@@ -11,6 +11,7 @@
 #include "solvers/gs.h"
 #include "solvers/ipm.h"
 #include "solvers/newton/newton.h"
+#include "solvers/prox_newton.h"
 #include "solvers/ssnal.h"
 
 namespace conebench::solvers {

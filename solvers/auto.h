@@ -4,9 +4,9 @@
 
 namespace conebench::solvers {
 
-/// `auto`: Gauss-Seidel, Newton on the proximal point problem (make_proximal_newton of
-/// solvers/ssnal.h), proximal Alart-Curnier Newton, the fixed point aclm and the interior point
-/// take turns on one problem, each for as long as it promises to be the first to finish.
+/// `auto`: Gauss-Seidel, Newton on the proximal point problem
+/// (solvers/prox_newton.h), proximal Alart-Curnier Newton, the fixed point aclm and the interior
+/// point take turns on one problem, each for as long as it promises to be the first to finish.
 ///
 /// Lanes     gs[skip=10], prox-newton, newton-ac, ipm, aclm; each is made when its first turn
 ///           comes and keeps its factorisations. One that refuses the problem is left out; a

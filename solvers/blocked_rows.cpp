@@ -1,6 +1,7 @@
 #include "solvers/blocked_rows.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace conebench::solvers {
 namespace {
@@ -9,69 +10,80 @@ using problems::Problem;
 using problems::SparseMatrix;
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Starts of the groups of `length` columns that rows [first, first + dim) touch, increasing.
-void collect_runs(const SparseMatrix& S, int first, int dim, int length, std::vector<int>& out) {
+constexpr int kLengths[] = {1, 2, 3, 6};
+
+// Where the runs of `length` columns that hold these columns start; both increase.
+void collect_runs(std::span<const int> columns, int length, std::vector<int>& out) {
   out.clear();
-  for (int row = first; row < first + dim; ++row) {
-    for (SparseMatrix::InnerIterator it(S, row); it; ++it) {
-      const int start = static_cast<int>(it.col()) / length * length;
-      if (out.empty() || out.back() != start) out.push_back(start);
-    }
+  for (const int column : columns) {
+    const int start = column / length * length;
+    if (out.empty() || out.back() != start) out.push_back(start);
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
-std::size_t bytes_with(const Problem& problem, const SparseMatrix& S, int length) {
-  std::size_t bytes = 0;
+// The sizes of all blocks, were the runs of this length.
+struct Sizes {
+  int length = 1;
+  std::size_t runs = 0, doubles = 0;
+
+  std::size_t bytes() const { return 8 * doubles + 4 * runs; }
+};
+
+// The length of fewest bytes; the longest where several need as many.
+Sizes best_sizes(const Problem& problem, problems::ScaledRows& rows) {
+  std::vector<Sizes> sizes;
+  for (const int length : kLengths) sizes.push_back({.length = length});
   std::vector<int> runs;
   for (int i = 0; i < problem.cone_count(); ++i) {
     const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
-    collect_runs(S, problem.start(i), dim, length, runs);
-    bytes += runs.size() * (8 * static_cast<std::size_t>(dim * length) + 4);
-  }
-  return bytes;
-}
-
-int best_run_length(const Problem& problem, const SparseMatrix& S) {
-  int best = 1;
-  std::size_t least = bytes_with(problem, S, 1);
-  for (const int length : {2, 3, 6}) {
-    const std::size_t bytes = bytes_with(problem, S, length);
-    if (bytes <= least) {
-      least = bytes;
-      best = length;
+    rows.load(problem.start(i), dim);
+    for (Sizes& size : sizes) {
+      collect_runs(rows.columns(), size.length, runs);
+      size.runs += runs.size();
+      size.doubles += runs.size() * static_cast<std::size_t>(dim * size.length);
     }
   }
-  return best;
+  return *std::ranges::min_element(std::views::reverse(sizes), {}, &Sizes::bytes);
 }
 
 }  // namespace
 
 BlockedRows::BlockedRows(const Problem& problem) {
-  const SparseMatrix S = problem.H() * problem.inertia().inverse_root();
-  run_length_ = best_run_length(problem, S);
+  problems::ScaledRows rows(problem.H(), problem.inertia().inverse_root());
+  const Sizes sizes = best_sizes(problem, rows);
+  run_length_ = sizes.length;
   scaled_dofs_ = (problem.dofs() + run_length_ - 1) / run_length_ * run_length_;
-  std::vector<int> runs;
+  run_start_.reserve(sizes.runs);
+  values_.reserve(sizes.doubles);
   run_begin_.push_back(0);
   value_begin_.push_back(0);
+  std::vector<int> runs;
   for (int i = 0; i < problem.cone_count(); ++i) {
-    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
-    collect_runs(S, problem.start(i), dim, run_length_, runs);
+    rows.load(problem.start(i), problem.cones()[static_cast<std::size_t>(i)].dim);
+    collect_runs(rows.columns(), run_length_, runs);
     run_start_.insert(run_start_.end(), runs.begin(), runs.end());
-    const std::size_t base = values_.size();
-    values_.resize(base + runs.size() * static_cast<std::size_t>(dim * run_length_), 0.0);
-    for (int row = 0; row < dim; ++row) {
-      for (SparseMatrix::InnerIterator it(S, problem.start(i) + row); it; ++it) {
-        const int column = static_cast<int>(it.col());
-        const int start = column / run_length_ * run_length_;
-        const auto run = std::lower_bound(runs.begin(), runs.end(), start) - runs.begin();
-        const auto at = (static_cast<int>(run) * dim + row) * run_length_ + column - start;
-        values_[base + static_cast<std::size_t>(at)] = it.value();
-      }
-    }
+    append_blocks(rows, runs);
     run_begin_.push_back(run_start_.size());
     value_begin_.push_back(values_.size());
+  }
+}
+
+void BlockedRows::append_blocks(const problems::ScaledRows& rows, std::span<const int> runs) {
+  const auto S = rows.S();
+  const auto size = static_cast<Eigen::Index>(runs.size()) * S.rows() * run_length_;
+  const std::size_t base = values_.size();
+  values_.resize(base + static_cast<std::size_t>(size), 0.0);
+  double* block = values_.data() + base;
+  std::size_t run = 0;
+  for (std::size_t k = 0; k < rows.columns().size(); ++k) {
+    const int column = rows.columns()[k];
+    while (column >= runs[run] + run_length_) {
+      ++run;
+      block += S.rows() * run_length_;
+    }
+    for (Eigen::Index row = 0; row < S.rows(); ++row) {
+      block[row * run_length_ + column - runs[run]] = S(row, static_cast<Eigen::Index>(k));
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "problems/problem.h"
+#include "problems/scaled_rows.h"
 
 namespace conebench::solvers {
 
@@ -45,6 +46,8 @@ class BlockedRows {
   std::size_t bytes() const;
 
  private:
+  void append_blocks(const problems::ScaledRows& rows, std::span<const int> runs);
+
   int run_length_ = 1;
   int scaled_dofs_ = 0;
   std::vector<std::size_t> run_begin_, value_begin_;

@@ -14,14 +14,6 @@ Eigen::VectorXd de_saxce_shift(const problems::Problem& problem, const Eigen::Ve
   return shift;
 }
 
-void project_on_cones(const problems::Problem& problem, Eigen::VectorXd& r) {
-  for (int i = 0; i < problem.cone_count(); ++i) {
-    const problems::Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
-    auto part = r.segment(problem.start(i), cone.dim);
-    problems::project(cone.mu, part);
-  }
-}
-
 double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shift,
                     const Eigen::VectorXd& r, const Eigen::VectorXd& u) {
   double worst = 0.0;

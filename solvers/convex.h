@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solvers/cone_vectors.h"
 #include "solvers/iteration.h"
 
 namespace conebench::solvers {
@@ -35,9 +36,6 @@ using MakeConvex = std::function<std::unique_ptr<ConvexIteration>(const problems
 /// theta_i |u_it|, one entry a cone: the shift whose convex problem has the Coulomb problem's
 /// solutions as fixed points. With it, convex_error is eta.
 Eigen::VectorXd de_saxce_shift(const problems::Problem& problem, const Eigen::VectorXd& u);
-
-/// Replaces each r_i by its projection on K_mu.
-void project_on_cones(const problems::Problem& problem, Eigen::VectorXd& r);
 
 /// error() for given r and u = W r + q.
 double convex_error(const problems::Problem& problem, const Eigen::VectorXd& shift,

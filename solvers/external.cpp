@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "problems/error.h"
+#include "problems/private_folder.h"
 #include "problems/problem_file.h"
 #include "solvers/forked.h"
 
@@ -19,27 +20,6 @@ namespace {
 using problems::Problem;
 
 constexpr int kClaims = 0, kDoesNotClaim = 1, kNotStarted = 127;
-
-// A folder that nobody else may read, for as long as this lives.
-class PrivateFolder {
- public:
-  PrivateFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "conebench-XXXXXX").string();
-    if (!::mkdtemp(name.data())) throw problems::OutputError(name, std::strerror(errno));
-    path_ = name;
-  }
-  ~PrivateFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // Replaces this (child) process by the program; its stderr is ours.
 int execute(std::vector<std::string> words) {
@@ -54,7 +34,7 @@ int execute(std::vector<std::string> words) {
 // What the program says of itself, in words where it says nothing good.
 struct Answer {
   Status status = Status::kDiverged;
-  Eigen::VectorXd r;
+  problems::ForeignAnswer solution{};
   std::string trouble{};
 };
 
@@ -71,25 +51,34 @@ Answer read_answer(const ProcessEnd& end, const std::filesystem::path& file, Eig
   }
   try {
     return {end.exit_code == kClaims ? Status::kConverged : Status::kStalled,
-            problems::read_solution_r(file, rows)};
+            problems::read_foreign_answer(file, rows)};
   } catch (const problems::InputError& error) {
     return {Status::kDiverged, {}, error.what()};
   }
 }
 
-Result iterate(const std::string& program, const Problem& problem, const Stop& stop,
+// The program and what its variant adds to every call.
+struct Program {
+  std::string path;
+  std::vector<std::string> extra_words;
+};
+
+Result iterate(const Program& program, const Problem& problem, const Stop& stop,
                const Eigen::VectorXd& guess, Monitor& monitor) {
-  const PrivateFolder folder;
+  const problems::PrivateFolder folder;
   const auto posed = folder.path() / "problem.h5", solved = folder.path() / "solution.h5";
   problems::write_external_problem(posed, problem, guess);
   monitor.setup_done();
   const double left_s = stop.time_limit_s - monitor.setup_s();
-  const ProcessEnd end = run_forked(
-      [&] {
-        return execute({program, posed, solved, "--tol", fmt::format("{}", stop.tol),
-                        "--time-limit", fmt::format("{}", left_s)});
-      },
-      left_s);
+  std::vector<std::string> words{program.path,
+                                 posed,
+                                 solved,
+                                 "--tol",
+                                 fmt::format("{}", stop.tol),
+                                 "--time-limit",
+                                 fmt::format("{}", left_s)};
+  words.insert(words.end(), program.extra_words.begin(), program.extra_words.end());
+  const ProcessEnd end = run_forked([&] { return execute(std::move(words)); }, left_s);
 
   Answer answer = read_answer(end, solved, problem.rows());
   // What it claims counts only where its own test decides.
@@ -98,29 +87,53 @@ Result iterate(const std::string& program, const Problem& problem, const Stop& s
   }
   Result result;
   const bool has_answer = answer.trouble.empty();
-  result.r = has_answer ? std::move(answer.r) : guess;
-  result.status = has_answer ? monitor.conclude(answer.status, 0, result.r) : answer.status;
-  if (!has_answer) result.notes.push_back(program + ": " + answer.trouble);
+  result.r = has_answer ? std::move(answer.solution.r) : guess;
+  result.iterations = answer.solution.iterations;
+  result.status =
+      has_answer ? monitor.conclude(answer.status, result.iterations, result.r) : answer.status;
+  if (!has_answer) result.notes.push_back(program.path + ": " + answer.trouble);
   return result;
 }
 
-}  // namespace
+std::vector<std::string> words_of(const std::string& variant,
+                                  const std::map<std::string, std::string>& values) {
+  std::vector<std::string> words;
+  for (const auto& [key, value] : values) {
+    problems::require(key != "tol" && key != "time-limit", variant, "'", key,
+                      "' is an option of the protocol, expected a parameter of the program");
+    words.push_back("--" + key);
+    words.push_back(value);
+  }
+  return words;
+}
 
-Solver make_external_solver(const std::string& variant) {
-  const std::string program = variant.substr(kExternalPrefix.size());
-  problems::require(
-      std::filesystem::is_regular_file(program) && ::access(program.c_str(), X_OK) == 0, variant,
-      "'", program, "' is no executable file");
-  const std::string path = std::filesystem::absolute(program).string();
+Solver make_one(const std::string& variant, const Program& program) {
   const Method method{.name = variant,
                       .kind = Kind::kPeer,
                       .summary = "a program of its own",
                       .parameters = {},
                       .make = {}};
-  return make_checked_solver(
+  Solver solver = make_checked_solver(
       method, {}, [](const Problem&) { return std::optional<std::string>(); },
-      [path](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
-             Monitor& monitor) { return iterate(path, problem, stop, guess, monitor); });
+      [program](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
+                Monitor& monitor) { return iterate(program, problem, stop, guess, monitor); });
+  solver.program = program.path;
+  return solver;
+}
+
+}  // namespace
+
+std::vector<Solver> make_external_solvers(const VariantText& variants) {
+  const std::string program = variants.name.substr(kExternalPrefix.size());
+  problems::require(
+      std::filesystem::is_regular_file(program) && ::access(program.c_str(), X_OK) == 0,
+      variants.name, "'", program, "' is no executable file");
+  std::vector<Solver> solvers;
+  for (const auto& values : variants.combinations()) {
+    const std::string name = variant_text(variants.name, values);
+    solvers.push_back(make_one(name, {std::filesystem::absolute(program), words_of(name, values)}));
+  }
+  return solvers;
 }
 
 }  // namespace conebench::solvers

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "solvers/coloured_sweep.h"
 #include "solvers/gs_coupling.h"
 #include "solvers/gs_schedule.h"
 #include "solvers/gs_sweeper.h"
@@ -45,27 +46,29 @@ class GaussSeidel final : public Iteration {
         sweeper_(problem, settings.local, settings.omega, settings.regularization,
                  std::move(coupling)),
         schedule_(problem, partial_sweeps(settings), settings.islands),
-        seconds_per_cone_(seconds_per_cone(problem)) {}
+        seconds_per_cone_(seconds_per_cone(problem)) {
+    if (settings.threads) coloured_.emplace(problem, sweeper_.coupling(), *settings.threads);
+  }
 
   void start(const Eigen::VectorXd& r) override {
     r_ = r;
     sweeps_ = 0;
     change_ = std::numeric_limits<double>::infinity();
     schedule_.restart();
-    sweeper_.clear_failures();
+    failures_ = {};
   }
 
   State advance() override {
     if (sweeps_ % kSweepsPerRefresh == 0) sweeper_.refresh(r_);
     ++sweeps_;
     const auto cones = schedule_.next();
-    SweepSize size = sweeper_.sweep(cones, false, schedule_.changes(), r_);
+    SweepSize size = coloured_ ? coloured_->sweep(sweeper_, r_)
+                               : sweeper_.sweep(cones, false, schedule_.changes(), r_);
     work_s_ += (symmetric_ ? 2.0 : 1.0) * seconds_per_cone_ * static_cast<double>(cones.size());
     if (symmetric_) {
-      const SweepSize back = sweeper_.sweep(cones, true, schedule_.changes(), r_);
-      size.change = std::max(size.change, back.change);
-      size.reaction = std::max(size.reaction, back.reaction);
+      size.add(sweeper_.sweep(cones, true, schedule_.changes(), r_));
     }
+    failures_.add(size.failures);
     change_ = std::max(size.change, schedule_.largest_change());
     if (!std::isfinite(change_)) return State::kDiverged;
     const bool still = schedule_.full() && change_ <= kNoProgress * size.reaction;
@@ -82,14 +85,13 @@ class GaussSeidel final : public Iteration {
 
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes;
-    const LocalFailures& failures = sweeper_.failures();
-    if (failures.unsolvable >= 0) {
+    if (failures_.unsolvable >= 0) {
       notes.push_back(
-          fmt::format("cone {}: its one-cone problem has no solution", failures.unsolvable));
+          fmt::format("cone {}: its one-cone problem has no solution", failures_.unsolvable));
     }
-    if (failures.stopped > 0) {
+    if (failures_.stopped > 0) {
       notes.push_back(fmt::format("{} of {} local solves stopped short of a solution",
-                                  failures.stopped, failures.solved));
+                                  failures_.stopped, failures_.solved));
     }
     return notes;
   }
@@ -99,24 +101,13 @@ class GaussSeidel final : public Iteration {
   bool symmetric_;
   Sweeper<Coupling> sweeper_;
   SweepSchedule schedule_;
+  std::optional<ColouredSweep<Coupling>> coloured_;
+  LocalFailures failures_;
   Eigen::VectorXd r_;
   std::int64_t sweeps_ = 0;
   double seconds_per_cone_, work_s_ = 0.0;
   double change_ = std::numeric_limits<double>::infinity();
 };
-
-bool has_velocity_form(const Problem& problem) {
-  return problem.is_primal() && problem.inertia().block_diagonal();
-}
-
-template <int L>
-std::unique_ptr<Iteration> make_velocity_form(const Problem& problem,
-                                              const GaussSeidelSettings& settings,
-                                              BlockedRows rows) {
-  using Coupling = VelocityCoupling<L>;
-  return std::make_unique<GaussSeidel<Coupling>>(problem, settings,
-                                                 Coupling(problem, std::move(rows)));
-}
 
 LocalKind local_kind(const std::string& name) {
   if (name == "projection") return LocalKind::kProjection;
@@ -207,21 +198,15 @@ std::optional<std::string> gauss_seidel_refuses(const Problem& problem,
 
 std::unique_ptr<Iteration> make_gauss_seidel(const Problem& problem,
                                              const GaussSeidelSettings& settings) {
-  if (settings.form == Form::kDelassus || !has_velocity_form(problem)) {
-    return std::make_unique<GaussSeidel<DelassusCoupling>>(problem, settings,
-                                                           DelassusCoupling(problem));
-  }
-  BlockedRows rows(problem);
-  switch (rows.run_length()) {
-    case 6:
-      return make_velocity_form<6>(problem, settings, std::move(rows));
-    case 3:
-      return make_velocity_form<3>(problem, settings, std::move(rows));
-    case 2:
-      return make_velocity_form<2>(problem, settings, std::move(rows));
-    default:
-      return make_velocity_form<1>(problem, settings, std::move(rows));
-  }
+  const bool velocity = settings.form != Form::kDelassus && has_velocity_form(problem);
+  return with_coupling(
+      problem, velocity, [&]<class Coupling>(Coupling coupling) -> std::unique_ptr<Iteration> {
+        return std::make_unique<GaussSeidel<Coupling>>(problem, settings, std::move(coupling));
+      });
+}
+
+double gauss_seidel_sweep_work_s(const Problem& problem) {
+  return seconds_per_cone(problem) * problem.cone_count();
 }
 
 std::size_t gauss_seidel_sweep_bytes(const Problem& problem) {

@@ -15,6 +15,9 @@ struct GaussSeidelSettings {
   bool symmetric = false;           ///< every sweep is a forward and a backward pass
   std::int64_t partial_sweeps = 0;  ///< between two full ones
   bool islands = false;             ///< partial sweeps leave out islands instead of cones
+  /// By colours (solvers/colouring.h), with so many threads; 0: those of the run. Then every sweep
+  /// is full, and forward.
+  std::optional<int> threads{};
 };
 
 /// Nonlinear Gauss-Seidel: one cone after another, each solved with all others held.
@@ -53,6 +56,9 @@ std::optional<std::string> gauss_seidel_refuses(const problems::Problem& problem
 /// Sweeps for other methods to drive. `problem` must outlive the iteration and not be refused.
 std::unique_ptr<Iteration> make_gauss_seidel(const problems::Problem& problem,
                                              const GaussSeidelSettings& settings = {});
+
+/// Iteration::work_s of one sweep over all cones.
+double gauss_seidel_sweep_work_s(const problems::Problem& problem);
 
 /// Bytes that one sweep of the velocity form with local=exact must read or write, each once: blocks
 /// and indices, local data, r, w and y. Precondition: M is block diagonal.

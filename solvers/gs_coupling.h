@@ -20,6 +20,8 @@ class VelocityCoupling {
   VelocityCoupling(const problems::Problem& problem, BlockedRows rows)
       : problem_(problem), rows_(std::move(rows)) {}
 
+  const BlockedRows& rows() const { return rows_; }
+
   void refresh(const Eigen::VectorXd& r) { y_ = rows_.scaled_velocity(problem_, r); }
 
   Eigen::MatrixXd diagonal_block(int i) const {
@@ -62,6 +64,8 @@ class DelassusCoupling {
  public:
   explicit DelassusCoupling(const problems::Problem& problem) : problem_(problem), W_(problem) {}
 
+  const BlockedDelassus& blocks() const { return W_; }
+
   void refresh(const Eigen::VectorXd& r) { r_ = r; }
 
   Eigen::MatrixXd diagonal_block(int i) const { return W_.diagonal_block(problem_, i); }
@@ -96,5 +100,28 @@ class DelassusCoupling {
   BlockedDelassus W_;
   Eigen::VectorXd r_;
 };
+
+/// Whether M and H are there and M is block diagonal.
+inline bool has_velocity_form(const problems::Problem& problem) {
+  return problem.is_primal() && problem.inertia().block_diagonal();
+}
+
+/// function(coupling), with the velocity coupling of the run length that suits the problem, or the
+/// Delassus coupling. Precondition: has_velocity_form() where `velocity`.
+template <class Function>
+auto with_coupling(const problems::Problem& problem, bool velocity, Function&& function) {
+  if (!velocity) return function(DelassusCoupling(problem));
+  BlockedRows rows(problem);
+  switch (rows.run_length()) {
+    case 6:
+      return function(VelocityCoupling<6>(problem, std::move(rows)));
+    case 3:
+      return function(VelocityCoupling<3>(problem, std::move(rows)));
+    case 2:
+      return function(VelocityCoupling<2>(problem, std::move(rows)));
+    default:
+      return function(VelocityCoupling<1>(problem, std::move(rows)));
+  }
+}
 
 }  // namespace conebench::solvers

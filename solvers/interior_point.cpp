@@ -18,8 +18,6 @@ constexpr double kLeastPush = 1e-12, kLargestPush = 1.0;  // into the interior, 
 constexpr double kLeastMobility = 1e-4;
 constexpr double kInside = 4e-16;  // least relative distance from the boundary
 constexpr int kRefinements = 3;
-constexpr double kFine = 1e-10;      // a larger one asks for the finer form
-constexpr double kRefined = 1e-13;   // relative residual that needs no refinement
 constexpr double kRounding = 2e-15;  // of a sum, as a share of the sum of its terms' sizes
 constexpr int kShortenings = 8;
 constexpr double kShortestStep = 1e-8;
@@ -143,7 +141,7 @@ Eigen::VectorXd InteriorPoint::shift_normals() const {
 // False where the system has no factor in doubles.
 bool InteriorPoint::affine_direction(const Eigen::VectorXd& residual) {
   const bool factorised = system_.factorize(R_, C_);
-  if (factorised && direction(residual, 0.0, 0.0) <= kFine) return true;
+  if (factorised && direction(residual, 0.0, 0.0) <= system_.fine()) return true;
   if (!system_.can_be_finer()) return factorised;
   system_.be_finer();
   if (!system_.factorize(R_, C_)) return false;
@@ -175,7 +173,7 @@ double InteriorPoint::direction(const Eigen::VectorXd& residual, double target, 
     return Eigen::VectorXd(rhs - scaled - R_ * dx_);
   };
   Eigen::VectorXd left = move(system_.solve(rhs));
-  for (int k = 0; k < kRefinements && left.norm() > kRefined * rhs.norm(); ++k) {
+  for (int k = 0; k < kRefinements && left.norm() > system_.refined() * rhs.norm(); ++k) {
     const Eigen::VectorXd before = scaled_dr_;
     const Eigen::VectorXd left_then = move(before + system_.solve(left));
     if (!(left_then.norm() < left.norm())) {

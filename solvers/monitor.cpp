@@ -36,6 +36,7 @@ std::optional<Status> Monitor::limit(std::int64_t iteration) const {
 
 double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r, double work_s) {
   const auto pause = Clock::now();
+  if (on_look_) on_look_(true);
   const double time_s = std::chrono::duration<double>(pause - start_ - paused_).count();
   const double eta = problems::evaluate_eta(problem_, r);
   curve_.push_back({time_s, iteration, eta});
@@ -46,6 +47,7 @@ double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r, double wo
   next_look_ = std::max(
       iteration + 1, static_cast<std::int64_t>(std::ceil(1.02 * static_cast<double>(iteration))));
   next_look_work_s_ = 1.02 * work_s;
+  if (on_look_) on_look_(false);
   paused_ += Clock::now() - pause;
   return eta;
 }

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "solvers/solver.h"
@@ -37,6 +39,10 @@ class Monitor {
   /// setup_s + solve_s, whatever starting and watching that process took.
   void set_clock(double setup_s, double solve_s);
 
+  /// Calls `hook` with true before each look at eta and with false after it, while the clock stands
+  /// still: for whoever measures more of a solve than its time.
+  void on_look(std::function<void(bool begins)> hook) { on_look_ = std::move(hook); }
+
   /// `work_s`: Iteration::work_s(), where iterations differ in cost.
   Verdict check(std::int64_t iteration, const Eigen::VectorXd& r, double work_s = 0.0);
 
@@ -66,6 +72,7 @@ class Monitor {
   Stop stop_;
   Clock::time_point start_;
   Clock::duration paused_{};
+  std::function<void(bool)> on_look_;
   double setup_s_ = 0.0;
   std::int64_t next_look_ = 0;
   double next_look_work_s_ = 0.0;

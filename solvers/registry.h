@@ -30,6 +30,12 @@ Solver make_solver(std::string_view variant);
 /// without `=` continues the previous list.
 std::vector<Solver> make_solvers(std::string_view variants);
 
+struct VariantText;
+
+/// Every variant of one method that the parsed text gives; `subject` is what errors name.
+std::vector<Solver> make_variants(const Method& method, const VariantText& text,
+                                  std::string_view subject);
+
 /// name[keys sorted, defaults omitted].
 std::string identity(const Method& method, const Values& values);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -77,7 +78,7 @@ struct Parameter {
   Value fallback;                                         ///< the default
   double low = -std::numeric_limits<double>::infinity();  ///< of numbers, inclusive
   double high = std::numeric_limits<double>::infinity();
-  std::vector<std::string> choices{};  ///< of a string
+  std::vector<std::string> choices{};  ///< of a string; empty: any text
   std::string doc{};                   ///< one sentence, with the unit
 };
 
@@ -90,6 +91,8 @@ struct Solver {
   std::function<std::optional<std::string>(const problems::Problem&)> refuses;
   /// Precondition: `standard` has kappa = 0. Throws InputError for a bad request only.
   std::function<Result(const problems::Problem& standard, const Request&)> solve;
+  /// The file of a solver from outside this program (`exec:`, `plugin:`), absolute; empty: ours.
+  std::filesystem::path program{};
 
   bool supports(const problems::Problem& standard) const { return !refuses(standard); }
 };

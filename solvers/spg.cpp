@@ -4,20 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/cone_vectors.h"
 #include "solvers/convex.h"
+#include "solvers/delassus_product.h"
 
 namespace conebench::solvers {
 namespace {
 
-using problems::Cone;
 using problems::Problem;
 
 constexpr double kSufficientDecrease = 1e-4;
 constexpr double kLongestStep = 1e10;
 // u is updated by W d; recomputed from r this often, since rounding accumulates.
 constexpr std::int64_t kIterationsPerRefresh = 100;
-// Below this share of max lambda_i |r_i|, a step is rounding, not progress.
-constexpr double kNoProgress = 1e-16;
 
 enum class Step { kLong, kShort, kAdaptive };
 
@@ -61,12 +60,16 @@ class History {
 
 class Spg final : public Iteration {
  public:
-  Spg(const Problem& problem, const Settings& settings) : problem_(problem), settings_(settings) {}
+  Spg(const Problem& problem, const Settings& settings)
+      : problem_(problem),
+        settings_(settings),
+        product_(problem),
+        mobility_(mobility_per_row(problem)) {}
 
   void start(const Eigen::VectorXd& r) override {
     r_ = r;
-    for (int i = 0; i < problem_.cone_count(); ++i) project(i, r_);
-    u_ = problem_.rate(r_);
+    project_on_cones(problem_, r_);
+    product_.rate(r_, u_);
     alpha_ = 1.0;
     history_ = History(settings_.memory);
     iterations_ = 0;
@@ -74,24 +77,26 @@ class Spg final : public Iteration {
   }
 
   State advance() override {
-    if (++iterations_ % kIterationsPerRefresh == 0) u_ = problem_.rate(r_);
+    if (++iterations_ % kIterationsPerRefresh == 0) product_.rate(r_, u_);
     // A subproblem solved to rounding before its time is over is refreshed at once.
     const bool fresh = still_ || iterations_ % settings_.refresh == 0;
     if (fresh) theta_s_ = de_saxce_shift(problem_, u_);
-    const Eigen::VectorXd gradient = shifted_rate(theta_s_);
-    const Eigen::VectorXd d = projected_step(gradient, alpha_);
-    const Eigen::VectorXd Wd = problem_.apply_delassus(d);
-    const double slope = gradient.dot(d), curvature = d.dot(Wd);
+    shift_rate();
+    d_ = r_ - alpha_ * gradient_.cwiseQuotient(mobility_);
+    project_on_cones(problem_, d_);
+    d_ -= r_;
+    product_.apply(d_, Wd_);
+    const double slope = gradient_.dot(d_), curvature = d_.dot(Wd_);
 
     const double f0 = 0.5 * r_.dot(u_ + problem_.q());
     history_.add(f0, normals());
     const double f = f0 + theta_s_.dot(normals());
     const double t = line_search(f, slope, curvature);
-    r_ += t * d;
-    u_ += t * Wd;
+    r_ += t * d_;
+    u_ += t * Wd_;
     if (!r_.allFinite()) return State::kDiverged;
-    update_alpha(d, Wd, curvature);
-    still_ = size_as_rate(d) * t <= kNoProgress * size_as_rate(r_);
+    update_alpha(curvature);
+    still_ = t * size_as_rate(problem_, d_) <= kNoProgress * size_as_rate(problem_, r_);
     return still_ && fresh ? State::kStalled : State::kRunning;
   }
 
@@ -101,34 +106,9 @@ class Spg final : public Iteration {
   }
 
  private:
-  const Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
-
-  void project(int i, Eigen::VectorXd& x) const {
-    const int at = problem_.start(i);
-    if (cone(i).dim == 3) {
-      Eigen::Vector3d part = x.segment<3>(at);
-      problems::project(cone(i).mu, part);
-      x.segment<3>(at) = part;
-    } else {
-      auto part = x.segment(at, cone(i).dim);
-      problems::project(cone(i).mu, part);
-    }
-  }
-
-  Eigen::VectorXd shifted_rate(const Eigen::VectorXd& theta_s) const {
-    Eigen::VectorXd u_hat = u_;
-    for (int i = 0; i < problem_.cone_count(); ++i) u_hat(problem_.start(i)) += theta_s(i);
-    return u_hat;
-  }
-
-  Eigen::VectorXd projected_step(const Eigen::VectorXd& gradient, double alpha) const {
-    Eigen::VectorXd d = r_;
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      const int at = problem_.start(i), dim = cone(i).dim;
-      d.segment(at, dim) -= alpha / problem_.mobility()(i) * gradient.segment(at, dim);
-      project(i, d);
-    }
-    return d - r_;
+  void shift_rate() {
+    gradient_ = u_;
+    for (int i = 0; i < problem_.cone_count(); ++i) gradient_(problem_.start(i)) += theta_s_(i);
   }
 
   Eigen::VectorXd normals() const {
@@ -150,13 +130,9 @@ class Spg final : public Iteration {
     return t;
   }
 
-  void update_alpha(const Eigen::VectorXd& d, const Eigen::VectorXd& Wd, double curvature) {
-    double metric = 0.0, dual_metric = 0.0;
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      const int at = problem_.start(i), dim = cone(i).dim;
-      metric += problem_.mobility()(i) * d.segment(at, dim).squaredNorm();
-      dual_metric += Wd.segment(at, dim).squaredNorm() / problem_.mobility()(i);
-    }
+  void update_alpha(double curvature) {
+    const double metric = d_.cwiseAbs2().dot(mobility_);
+    const double dual_metric = Wd_.cwiseAbs2().cwiseQuotient(mobility_).sum();
     const double longest = curvature > 0.0 ? metric / curvature : kLongestStep;
     const double shortest = dual_metric > 0.0 ? curvature / dual_metric : kLongestStep;
     const bool take_short = settings_.step == Step::kShort ||
@@ -164,18 +140,12 @@ class Spg final : public Iteration {
     alpha_ = std::clamp(take_short ? shortest : longest, 1.0 / kLongestStep, kLongestStep);
   }
 
-  double size_as_rate(const Eigen::VectorXd& x) const {
-    double largest = 0.0;
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      const double size = x.segment(problem_.start(i), cone(i).dim).norm();
-      largest = std::max(largest, problem_.mobility()(i) * size);
-    }
-    return largest;
-  }
-
   const Problem& problem_;
   Settings settings_;
+  DelassusProduct product_;
+  Eigen::VectorXd mobility_;  // lambda_i on each row of cone i
   Eigen::VectorXd r_, u_;
+  Eigen::VectorXd gradient_, d_, Wd_;
   Eigen::VectorXd theta_s_;  // theta_i |u_it| as last refreshed
   double alpha_ = 1.0;
   History history_{1};

@@ -20,7 +20,7 @@ namespace conebench::solvers {
 /// f_s of earlier iterates is recomputed for the s in force (r_n of each is kept), so that the
 /// comparison stays one of the same function.
 ///
-/// Cost    one product with W (through M^-1) an iteration.
+/// Cost    one product with W an iteration (solvers/delassus_product.h).
 /// Memory  8 memory + 150 bytes a cone.
 /// Own test (StopTest::kOwn)  eta from its own, recursively updated u.
 /// No convergence proof with refresh; for theta = 0 it is SPG on a convex problem.

@@ -1,4 +1,4 @@
-// The text form of a solver: name[key=value,...], its checks and its canonical spelling.
+// From a solver's text form to solvers: which method, the values checked, the canonical spelling.
 
 #include <fmt/format.h>
 
@@ -9,50 +9,13 @@
 #include "problems/suggest.h"
 #include "solvers/external.h"
 #include "solvers/registry.h"
+#include "solvers/variant_text.h"
 
 namespace conebench::solvers {
 namespace {
 
 using problems::InputError;
 using problems::require;
-
-struct Item {
-  std::string key;
-  std::vector<std::string> values;
-};
-
-struct Parsed {
-  std::string method;
-  std::vector<Item> items;
-};
-
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
-}
-
-Parsed parse(std::string_view text) {
-  const auto open = text.find('[');
-  Parsed parsed{trimmed(text.substr(0, open)), {}};
-  if (open == std::string_view::npos) return parsed;
-  require(text.back() == ']', text, "has '[' without a final ']', expected name[key=value,...]");
-  std::string_view body = text.substr(open + 1, text.size() - open - 2);
-  while (!trimmed(body).empty()) {
-    const auto comma = body.find(',');
-    const std::string_view item = body.substr(0, comma);
-    const auto equals = item.find('=');
-    if (equals != std::string_view::npos) {
-      parsed.items.push_back({trimmed(item.substr(0, equals)), {trimmed(item.substr(equals + 1))}});
-    } else {
-      require(!parsed.items.empty(), text, "starts with '", trimmed(item),
-              "', expected name[key=value,...]");
-      parsed.items.back().values.push_back(trimmed(item));
-    }
-    body = comma == std::string_view::npos ? std::string_view{} : body.substr(comma + 1);
-  }
-  return parsed;
-}
 
 const Method& find_method(std::string_view name, std::string_view variant) {
   std::vector<std::string> known;
@@ -100,7 +63,7 @@ Value convert(const Parameter& parameter, const std::string& text, std::string_v
     return text == "true";
   }
   const auto& choices = parameter.choices;
-  if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
+  if (!choices.empty() && std::find(choices.begin(), choices.end(), text) == choices.end()) {
     throw InputError(variant,
                      fmt::format("{} is '{}'{}; known: {}", parameter.name, text,
                                  problems::suggestion(text, choices), fmt::join(choices, ", ")));
@@ -117,29 +80,27 @@ std::string spelled(const Value& value) {
 
 }  // namespace
 
-std::vector<Solver> make_solvers(std::string_view variants) {
-  const std::string whole = trimmed(variants);
-  if (whole.starts_with(kExternalPrefix)) return {make_external_solver(whole)};
-  const Parsed parsed = parse(whole);
-  const Method& method = find_method(parsed.method, variants);
+std::vector<Solver> make_variants(const Method& method, const VariantText& text,
+                                  std::string_view subject) {
   Values defaults;
   for (const Parameter& parameter : method.parameters)
     defaults[parameter.name] = parameter.fallback;
-  std::vector<Values> grid{defaults};
-  for (const Item& item : parsed.items) {
-    const Parameter& parameter = find_parameter(method, item.key, variants);
-    std::vector<Values> wider;
-    for (const Values& values : grid) {
-      for (const std::string& text : item.values) {
-        wider.push_back(values);
-        wider.back()[item.key] = convert(parameter, text, variants);
-      }
-    }
-    grid = std::move(wider);
-  }
   std::vector<Solver> solvers;
-  for (const Values& values : grid) solvers.push_back(method.make(values));
+  for (const auto& combination : text.combinations()) {
+    Values values = defaults;
+    for (const auto& [key, value] : combination) {
+      values[key] = convert(find_parameter(method, key, subject), value, subject);
+    }
+    solvers.push_back(method.make(values));
+  }
   return solvers;
+}
+
+std::vector<Solver> make_solvers(std::string_view variants) {
+  const VariantText file = parse_file_variant(variants);
+  if (file.name.starts_with(kExternalPrefix)) return make_external_solvers(file);
+  const VariantText text = parse_variant(variants);
+  return make_variants(find_method(text.name, variants), text, variants);
 }
 
 Solver make_solver(std::string_view variant) {
@@ -149,17 +110,14 @@ Solver make_solver(std::string_view variant) {
 }
 
 std::string identity(const Method& method, const Values& values) {
-  std::vector<std::string> items;
+  std::map<std::string, std::string> given;
   for (const auto& [key, value] : values) {
     const auto& schema = method.parameters;
     const auto parameter = std::find_if(schema.begin(), schema.end(),
                                         [&](const Parameter& p) { return p.name == key; });
-    if (parameter != schema.end() && value != parameter->fallback) {
-      items.push_back(key + "=" + spelled(value));
-    }
+    if (parameter != schema.end() && value != parameter->fallback) given[key] = spelled(value);
   }
-  if (items.empty()) return method.name;
-  return fmt::format("{}[{}]", method.name, fmt::join(items, ","));
+  return variant_text(method.name, given);
 }
 
 }  // namespace conebench::solvers

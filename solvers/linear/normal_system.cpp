@@ -102,14 +102,36 @@ Matrix pattern(const Problem& problem, const ConeRows& rows) {
   return lower;
 }
 
-// Adds the lower triangle of `dense` at rows and columns `dofs`, all of which are stored.
-void add_lower(std::span<const int> dofs, const Eigen::MatrixXd& dense, Matrix& lower) {
-  for (std::size_t j = 0; j < dofs.size(); ++j) {
-    int at = lower.outerIndexPtr()[dofs[j]];
-    for (std::size_t i = j; i < dofs.size(); ++i) {
-      while (lower.innerIndexPtr()[at] < dofs[i]) ++at;
-      lower.valuePtr()[at] += dense(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+// Adds the lower triangle of A^T B, whose rows and columns are `dofs`, all of which are stored.
+template <int kDim>
+void add_lower(std::span<const int> dofs, const double* a, const double* b, int dim,
+               Matrix& lower) {
+  using Rows = Eigen::Map<const Eigen::Matrix<double, kDim, Eigen::Dynamic>>;
+  const auto count = static_cast<Eigen::Index>(dofs.size());
+  const Rows A(a, dim, count), B(b, dim, count);
+  for (Eigen::Index j = 0; j < count; ++j) {
+    int at = lower.outerIndexPtr()[dofs[static_cast<std::size_t>(j)]];
+    for (Eigen::Index i = j; i < count; ++i) {
+      while (lower.innerIndexPtr()[at] < dofs[static_cast<std::size_t>(i)]) ++at;
+      lower.valuePtr()[at] += A.col(i).dot(B.col(j));
     }
+  }
+}
+
+void add_lower(std::span<const int> dofs, const Eigen::Map<const Eigen::MatrixXd>& A,
+               const Eigen::MatrixXd& B, Matrix& lower) {
+  const int dim = static_cast<int>(A.rows());
+  switch (dim) {
+    case 1:
+      return add_lower<1>(dofs, A.data(), B.data(), dim, lower);
+    case 2:
+      return add_lower<2>(dofs, A.data(), B.data(), dim, lower);
+    case 3:
+      return add_lower<3>(dofs, A.data(), B.data(), dim, lower);
+    case 6:
+      return add_lower<6>(dofs, A.data(), B.data(), dim, lower);
+    default:
+      return add_lower<Eigen::Dynamic>(dofs, A.data(), B.data(), dim, lower);
   }
 }
 
@@ -129,12 +151,11 @@ struct NormalSystem::Primal {
   bool factorize(const BlockDiagonal& scaling) {
     E = scaling;
     matrix.coeffs() = mass.coeffs();
-    Eigen::MatrixXd EH, dense;
+    Eigen::MatrixXd EH;
     for (int i = 0; i < problem.cone_count(); ++i) {
       if (scaling[i].isZero(0.0)) continue;
-      EH.noalias() = scaling[i] * rows.block(i);
-      dense.noalias() = rows.block(i).transpose() * EH;
-      add_lower(rows.dofs(i), dense, matrix);
+      EH.noalias() = scaling[i].lazyProduct(rows.block(i));
+      add_lower(rows.dofs(i), rows.block(i), EH, matrix);
     }
     return cholesky.factorize(matrix);
   }
@@ -148,19 +169,19 @@ struct NormalSystem::Primal {
   bool factorize_root(const BlockDiagonal& root) {
     E = root;
     matrix.coeffs() = mass.coeffs();
-    Eigen::MatrixXd RH, dense;
+    Eigen::MatrixXd RH;
     for (int i = 0; i < problem.cone_count(); ++i) {
-      RH.noalias() = root[i] * rows.block(i);
-      dense.noalias() = RH.transpose() * RH;
-      add_lower(rows.dofs(i), dense, matrix);
+      RH.noalias() = root[i].lazyProduct(rows.block(i));
+      add_lower(rows.dofs(i), {RH.data(), RH.rows(), RH.cols()}, RH, matrix);
     }
     return cholesky.factorize(matrix);
   }
 
-  Eigen::VectorXd solve_root(const Eigen::VectorXd& z) const {
-    const Eigen::VectorXd b = problem.H().transpose() * E.transpose_times(z);
-    return z - E * (problem.H() * cholesky.solve(b));
+  Eigen::VectorXd solve_root_rate(const Eigen::VectorXd& z) const {
+    return problem.H() * cholesky.solve(problem.H().transpose() * E.transpose_times(z));
   }
+
+  Eigen::VectorXd solve_root(const Eigen::VectorXd& z) const { return z - E * solve_root_rate(z); }
 
   const Problem& problem;
   ConeRows rows;
@@ -262,6 +283,11 @@ bool NormalSystem::factorize_root(const BlockDiagonal& R) {
 
 Eigen::VectorXd NormalSystem::solve_root(const Eigen::VectorXd& z) const {
   return primal_ ? primal_->solve_root(z) : reduced_->cholesky.solve(z);
+}
+
+Eigen::VectorXd NormalSystem::solve_root_rate(const Eigen::VectorXd& z) const {
+  if (primal_) return primal_->solve_root_rate(z);
+  return reduced_->problem.apply_delassus(reduced_->G.transpose_times(solve_root(z)));
 }
 
 bool NormalSystem::factorize(const BlockDiagonal& E) {

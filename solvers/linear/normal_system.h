@@ -28,6 +28,8 @@ class NormalSystem {
   /// however large or small the scalings are. (I + E W) x = b is then x = b - R^T y, R W b = z.
   bool factorize_root(const BlockDiagonal& R);
   Eigen::VectorXd solve_root(const Eigen::VectorXd& z) const;
+  /// W R^T y of that y. Primal form: cheaper than solve_root().
+  Eigen::VectorXd solve_root_rate(const Eigen::VectorXd& z) const;
 
   /// Of factorize() and a few solve() (Iteration::work_s).
   double work_s() const;

@@ -22,12 +22,15 @@ class ScaledSystem {
     kKkt,     ///< [M, H^T S^T; S H, -I], quasidefinite (linear/kkt_system.h); primal form only
   };
 
-  /// `symmetric`: C = I. Otherwise LU (linear/general_system.h), and `form` has no say.
+  /// `symmetric`: C = I. Otherwise C_i = I + e_n c_i^T, c_i tangential: the same symmetric factor
+  /// and GMRES for t_i = c_i.(W R^T y)_i, one unknown a cone, to a looser residual; be_finer() puts
+  /// LU of the whole (linear/general_system.h) in their place.
   ScaledSystem(const problems::Problem& problem, Form form, bool symmetric);
   ~ScaledSystem();
 
-  /// The quasidefinite form from here on, if it may still be chosen: near the solution the normal
-  /// equations lose what scalings, very large on some cones and very small on others, make cancel.
+  /// The finer form from here on, if there is one. Symmetric: the quasidefinite form, since near
+  /// the solution the normal equations lose what scalings, very large on some cones and very small
+  /// on others, make cancel. Otherwise LU.
   bool can_be_finer() const;
   void be_finer();
 
@@ -35,12 +38,23 @@ class ScaledSystem {
   bool factorize(const BlockDiagonal& R, const BlockDiagonal& C);
   Eigen::VectorXd solve(Eigen::VectorXd z) const;
 
+  /// The relative residual above which solve() has failed, and that below which no refinement is
+  /// worth its cost.
+  double fine() const;
+  double refined() const;
+
   /// Of factorize() and a few solve() (Iteration::work_s).
   double work_s() const;
 
  private:
+  Eigen::VectorXd solve_symmetric(const Eigen::VectorXd& z) const;
+  Eigen::VectorXd solve_sliding(const Eigen::VectorXd& z) const;
+  Eigen::VectorXd slide(const Eigen::VectorXd& z) const;
+  Eigen::VectorXd kick(const Eigen::VectorXd& t) const;
+
   const problems::Problem& problem_;
-  BlockDiagonal identity_, L_, S_, SC_;
+  bool symmetric_;
+  BlockDiagonal identity_, C_, L_, S_, SC_;
   bool may_switch_ = false;
   std::unique_ptr<NormalSystem> normal_;
   std::unique_ptr<KktSystem> kkt_;

@@ -10,16 +10,16 @@ void call(const char* name, int value) {
   if (void* symbol = dlsym(RTLD_DEFAULT, name)) reinterpret_cast<void (*)(int)>(symbol)(value);
 }
 
-bool pin() {
-  call("openblas_set_num_threads", 1);
-  call("omp_set_num_threads", 1);
-  // CHOLMOD asks for four threads whatever that number is: no parallel region may be active.
-  call("omp_set_max_active_levels", 0);
+bool pin(int threads) {
+  call("openblas_set_num_threads", threads);
+  call("omp_set_num_threads", threads);
+  // CHOLMOD asks for four threads whatever that number is: with one, no parallel region at all.
+  call("omp_set_max_active_levels", threads > 1 ? 1 : 0);
   return true;
 }
 
 }  // namespace
 
-void pin_library_threads() { [[maybe_unused]] static const bool done = pin(); }
+void pin_library_threads(int threads) { [[maybe_unused]] static const bool done = pin(threads); }
 
 }  // namespace conebench::solvers

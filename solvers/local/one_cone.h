@@ -80,7 +80,7 @@ extern template class OneCone<Eigen::Dynamic>;
 /// Calls function.template operator()<D>() with D = dim where OneCone has code for that dimension,
 /// else with D = Eigen::Dynamic.
 template <class Function>
-void with_dimension(int dim, const Function& function) {
+decltype(auto) with_dimension(int dim, const Function& function) {
   switch (dim) {
     case 1:
       return function.template operator()<1>();

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "problems/error.h"
 #include "problems/made_backwards.h"
@@ -59,7 +60,7 @@ class External : public testing::Test {
 TEST_F(External, ExampleSolvesBothForms) {
   if (!python_has_h5py()) GTEST_SKIP() << "/usr/bin/python3 has no numpy and h5py";
   const std::string variant =
-      shell("exec /usr/bin/python3 " CONEBENCH_SOURCE_DIR "/examples/external_solver.py \"$@\"");
+      shell("exec /usr/bin/python3 " CONEBENCH_SOURCE_DIR "/examples/python/my_solver.py \"$@\"");
   for (const bool reduced : {false, true}) {
     problem_ = problems::make_backwards({.cones = 12,
                                          .dims = {3, 2, 6, 1},
@@ -71,6 +72,7 @@ TEST_F(External, ExampleSolvesBothForms) {
     const Result result = solve(variant);
     EXPECT_EQ(result.status, Status::kConverged);
     EXPECT_LE(problems::evaluate_eta(problem_, result.r), 1e-6);
+    EXPECT_GT(result.iterations, 0);
     EXPECT_TRUE(result.notes.empty());
     const Result own = solve(variant, {.tol = 1e-6, .test = StopTest::kOwn});
     EXPECT_EQ(own.status, Status::kConverged);
@@ -95,6 +97,45 @@ TEST_F(External, GetsTheProtocolsArguments) {
   std::ifstream file(seen);
   std::getline(file, line);
   EXPECT_EQ(line, "--tol 1e-05 --time-limit 6");
+}
+
+TEST_F(External, ParametersBecomeOptionsAndListsMakeGrids) {
+  const fs::path seen = folder_ / "seen";
+  const std::string variant = shell("shift 6; echo \"$@\" >> " + seen.string() + "; exit 1");
+  std::vector<std::string> names;
+  for (const Solver& solver : make_solvers(" " + variant + "[sweeps=3, omega=0.8,1.3] ")) {
+    names.push_back(solver.name);
+    EXPECT_EQ("exec:" + solver.program.string(), variant);
+    solver.solve(problem_, {{.tol = 1e-6}, {}, nullptr});
+  }
+  EXPECT_THAT(names,
+              ElementsAre(variant + "[omega=0.8,sweeps=3]", variant + "[omega=1.3,sweeps=3]"));
+  std::stringstream lines;
+  lines << std::ifstream(seen).rdbuf();
+  EXPECT_EQ(lines.str(), "--omega 0.8 --sweeps 3\n--omega 1.3 --sweeps 3\n");
+  EXPECT_THROW(make_solver(variant + "[tol=1]"), problems::InputError);
+  EXPECT_THROW(make_solver(variant + "[time-limit=1]"), problems::InputError);
+  EXPECT_THROW(make_solver(variant + "[1]"), problems::InputError);
+}
+
+TEST_F(External, IterationsAreThoseOfTheSolutionFile) {
+  if (!python_has_h5py()) GTEST_SKIP() << "/usr/bin/python3 has no numpy and h5py";
+  const auto with_iterations = [&](const std::string& value) {
+    return solve(
+        python("n = h5py.File(sys.argv[1])['guess/r'].shape[0]\n"
+               "file = h5py.File(sys.argv[2], 'w')\n"
+               "file['solution/r'] = np.zeros(n)\n"
+               "file['solution'].attrs['iterations'] = " +
+               value));
+  };
+  const Result counted = with_iterations("17");
+  EXPECT_EQ(counted.iterations, 17);
+  EXPECT_EQ(counted.status, Status::kStalled);
+  for (const char* wrong : {"-1", "'many'"}) {
+    const Result refused = with_iterations(wrong);
+    EXPECT_EQ(refused.status, Status::kDiverged);
+    EXPECT_THAT(refused.notes, ElementsAre(HasSubstr("iterations")));
+  }
 }
 
 TEST_F(External, LiarIsNotBelievedByTheCommonTest) {

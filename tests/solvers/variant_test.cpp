@@ -3,6 +3,7 @@
 
 #include "problems/error.h"
 #include "solvers/registry.h"
+#include "solvers/variant_text.h"
 
 namespace conebench::solvers {
 namespace {
@@ -49,6 +50,17 @@ TEST(Variant, NamesWhatItDoesNotKnow) {
   EXPECT_THAT(error_of("gs[1.0]"), HasSubstr("expected name[key=value,...]"));
   EXPECT_THAT(error_of(""), HasSubstr("no solver ''"));
   EXPECT_THROW(make_solver("gs[omega=0.8,1.0]"), problems::InputError);
+}
+
+TEST(Variant, WithoutAFinalBracketAFileIsAllName) {
+  EXPECT_EQ(parse_file_variant(" exec:/a [b]/c ").name, "exec:/a [b]/c");
+  const VariantText text = parse_file_variant("exec:/a [b]/c[k=1,2,j=x]");
+  EXPECT_EQ(text.name, "exec:/a [b]/c");
+  ASSERT_EQ(text.items.size(), 2u);
+  EXPECT_THAT(text.items[0].values, ElementsAre("1", "2"));
+  EXPECT_EQ(text.combinations().size(), 2u);
+  EXPECT_EQ(variant_text(text.name, text.combinations()[1]), "exec:/a [b]/c[j=x,k=2]");
+  EXPECT_EQ(variant_text("gs", {}), "gs");
 }
 
 TEST(Variant, EveryMethodDocumentsItsParameters) {

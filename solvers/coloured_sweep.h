@@ -1,0 +1,54 @@
+#pragma once
+
+#include <omp.h>
+
+#include "solvers/colouring.h"
+#include "solvers/gs_sweeper.h"
+
+namespace conebench::solvers {
+
+/// A sweep over all cones colour by colour, each colour by several threads. The numbers do not
+/// depend on how many. Cost beyond the cones': one barrier a colour.
+template <class Coupling>
+class ColouredSweep {
+ public:
+  /// `threads` 0: as many as OpenMP has been told to use.
+  ColouredSweep(const problems::Problem& problem, const Coupling& coupling, int threads)
+      : colouring_(problem, coupling), threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+
+  SweepSize sweep(Sweeper<Coupling>& sweeper, Eigen::VectorXd& r) {
+    const LevelsForOne levels;
+    SweepSize size;
+#pragma omp parallel num_threads(threads_)
+    {
+      SweepSize mine;
+      for (const std::vector<int>& cones : colouring_.parallel()) {
+#pragma omp for schedule(static)
+        for (std::size_t k = 0; k < cones.size(); ++k) sweeper.visit(cones[k], r, mine);
+      }
+#pragma omp single
+      for (const int i : colouring_.serial()) sweeper.visit(i, r, mine);
+#pragma omp critical
+      size.add(mine);
+    }
+    return size;
+  }
+
+ private:
+  // One level of parallel regions while it lives: elsewhere libraries are kept from opening any.
+  class LevelsForOne {
+   public:
+    LevelsForOne() { omp_set_max_active_levels(1); }
+    ~LevelsForOne() { omp_set_max_active_levels(before_); }
+    LevelsForOne(const LevelsForOne&) = delete;
+    LevelsForOne& operator=(const LevelsForOne&) = delete;
+
+   private:
+    int before_ = omp_get_max_active_levels();
+  };
+
+  Colouring colouring_;
+  int threads_;
+};
+
+}  // namespace conebench::solvers

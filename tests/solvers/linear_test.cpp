@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <random>
+
+#include "problems/made_backwards.h"
+#include "solvers/linear/cholesky.h"
+#include "solvers/linear/gmres.h"
+#include "solvers/linear/scaled_system.h"
+
+namespace conebench::solvers {
+namespace {
+
+Eigen::MatrixXd random_matrix(int size, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  Eigen::MatrixXd A(size, size);
+  for (double& value : A.reshaped()) value = uniform(random);
+  return A;
+}
+
+TEST(Gmres, SolvesWhatLuSolves) {
+  const Eigen::MatrixXd A = random_matrix(40, 1) + 8.0 * Eigen::MatrixXd::Identity(40, 40);
+  const Eigen::VectorXd b = random_matrix(40, 2).col(0);
+  const auto apply = [&](const Eigen::VectorXd& x) { return Eigen::VectorXd(A * x); };
+  const KrylovAnswer answer = gmres(apply, b, 1e-12, 40);
+  EXPECT_LE((A * answer.x - b).norm(), 1e-12 * b.norm() * 1.1);
+  EXPECT_LE((answer.x - A.lu().solve(b)).norm(), 1e-10 * b.norm());
+  EXPECT_LT(gmres(apply, b, 1e-2, 40).iterations, answer.iterations);
+}
+
+TEST(Gmres, KeepsToItsLimitsAndTakesTheEasyCasesAtOnce) {
+  const Eigen::MatrixXd A = random_matrix(40, 3);
+  const Eigen::VectorXd b = random_matrix(40, 4).col(0);
+  int products = 0;
+  const auto apply = [&](const Eigen::VectorXd& x) {
+    ++products;
+    return Eigen::VectorXd(A * x);
+  };
+  EXPECT_EQ(gmres(apply, b, 1e-14, 5).iterations, 5);
+  EXPECT_EQ(products, 5);
+  EXPECT_LE((A * gmres(apply, b, 1e-14, 5).x - b).norm(), b.norm());
+  const auto same = [](const Eigen::VectorXd& x) { return x; };
+  EXPECT_EQ(gmres(same, b, 1e-14, 40).iterations, 1);
+  EXPECT_TRUE(gmres(same, b, 1e-14, 40).x.isApprox(b, 1e-14));
+  EXPECT_EQ(gmres(same, Eigen::VectorXd::Zero(3), 1e-14, 40).x, Eigen::VectorXd::Zero(3));
+}
+
+// Only the lower triangle counts, whatever stands above it, in any order of the unknowns.
+TEST(Cholesky, ReadsTheLowerTriangleOnly) {
+  constexpr int kSize = 30;
+  const Eigen::MatrixXd B = random_matrix(kSize, 5);
+  const Eigen::MatrixXd A = B * B.transpose() + Eigen::MatrixXd::Identity(kSize, kSize);
+  Eigen::MatrixXd stored = A;
+  stored.triangularView<Eigen::StrictlyUpper>() = random_matrix(kSize, 6);
+  const Cholesky::Matrix sparse = stored.sparseView();
+  Cholesky cholesky;
+  cholesky.analyse(sparse);
+  ASSERT_TRUE(cholesky.factorize(sparse));
+  const Eigen::VectorXd b = random_matrix(kSize, 7).col(0);
+  EXPECT_LE((A * cholesky.solve(b) - b).norm(), 1e-10 * b.norm());
+  ASSERT_TRUE(cholesky.factorize(Cholesky::Matrix(4.0 * sparse)));  // the analysis serves again
+  EXPECT_LE((4.0 * A * cholesky.solve(b) - b).norm(), 1e-10 * b.norm());
+  EXPECT_FALSE(cholesky.factorize(Cholesky::Matrix(-1.0 * sparse)));
+}
+
+// (I + R C W R^T) y for random R and C_i = I + e_n c_i^T.
+struct System {
+  explicit System(const problems::Problem& of) : problem(of), R(of), C(of) {
+    std::uint64_t seed = 8;
+    for (int i = 0; i < R.count(); ++i) {
+      const auto dim = static_cast<int>(R[i].rows());
+      R[i] = 30.0 / std::sqrt(problem.mobility()(i)) * random_matrix(dim, ++seed);
+      C[i].setIdentity();
+      C[i].row(0).tail(dim - 1) = 0.5 * random_matrix(dim, ++seed).row(0).tail(dim - 1);
+    }
+  }
+  Eigen::VectorXd apply(const Eigen::VectorXd& y) const {
+    return y + R * (C * problem.apply_delassus(R.transpose_times(y)));
+  }
+
+  const problems::Problem& problem;
+  BlockDiagonal R, C;
+};
+
+TEST(ScaledSystem, SlidingAndLuSolveTheSameSystem) {
+  for (const bool reduced : {false, true}) {
+    const problems::Problem problem =
+        problems::make_backwards({.cones = 30, .dims = {3, 2, 6, 1}, .reduced = reduced, .seed = 4})
+            .problem;
+    const System system(problem);
+    const Eigen::VectorXd z = random_matrix(problem.rows(), 9).col(0);
+    ScaledSystem scaled(problem, ScaledSystem::Form::kAuto, false);
+    for (const bool finer : {false, true}) {
+      if (finer) {
+        ASSERT_TRUE(scaled.can_be_finer());
+        scaled.be_finer();
+        EXPECT_FALSE(scaled.can_be_finer());
+      }
+      ASSERT_TRUE(scaled.factorize(system.R, system.C));
+      const double left = (system.apply(scaled.solve(z)) - z).norm() / z.norm();
+      EXPECT_LE(left, scaled.fine()) << "reduced " << reduced << ", finer " << finer;
+    }
+    EXPECT_LT(scaled.fine(), 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace conebench::solvers
