@@ -1,10 +1,8 @@
 #pragma once
 
-#include <filesystem>
-
 #include "dem/assembly.h"
 #include "dem/step.h"
-#include "problems/engine/step_selection.h"
+#include "problems/engine/exporter.h"
 
 namespace conebench::dem {
 
@@ -12,27 +10,16 @@ namespace conebench::dem {
 /// The only place in this folder that makes a problem.
 problems::Problem make_problem(const Scene& scene, std::int64_t step, Assembly& assembly);
 
-/// Writes the problems of a running simulation as files DIR/<scene>_<step, 6 digits>.h5, each with
-/// geometry (at the beginning of the step), the engine's guess, and its own solution with eta.
-///
-/// Errors: OutputError when the folder or a file cannot be written.
-class Exporter {
+/// An exporter whose geometry is the contacts and bodies at the beginning of the step.
+class Exporter : public engine::Exporter {
  public:
-  /// Makes the folder.
-  Exporter(std::filesystem::path folder, engine::StepSelection selection);
+  using engine::Exporter::Exporter;
 
   /// An Observer; hand it in with std::ref.
   void operator()(const StepView& view);
 
-  std::int64_t written() const { return written_; }
   /// Selected steps that had no contact, hence no problem.
-  std::int64_t without_contacts() const { return without_contacts_; }
-
- private:
-  std::filesystem::path folder_;
-  engine::StepSelection selection_;
-  std::int64_t written_ = 0;
-  std::int64_t without_contacts_ = 0;
+  std::int64_t without_contacts() const { return without_problem(); }
 };
 
 }  // namespace conebench::dem

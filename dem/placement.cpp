@@ -1,197 +1,216 @@
 #include "dem/placement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "dem/broad_phase.h"
+#include "dem/overlaps.h"
+#include "dem/scene_shapes.h"
 #include "problems/error.h"
 
 namespace conebench::dem {
 namespace {
 
-constexpr int kLargestSweepCount = 10'000;
+using problems::require;
 
-// Numbers in [0, 1), the same on every machine (std::uniform_real_distribution promises less).
-class Random {
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Collects what generators make.
+class Builder : public Nursery {
  public:
-  explicit Random(std::int64_t seed) : engine_(static_cast<std::uint64_t>(seed)) {}
-  double operator()() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  Builder(const Scene& scene, std::string_view subject, Placement& out)
+      : scene_(scene),
+        subject_(subject),
+        out_(out),
+        engine_(static_cast<std::uint64_t>(scene.seed)) {
+    for (const SceneShape& shape : scene.shapes) this->shape(shape.shape());
+  }
+
+  int dimension() const override { return scene_.dimension; }
+  std::string_view subject() const override { return subject_; }
+
+  // std::uniform_real_distribution promises less.
+  double random() override { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
+
+  int shape(const std::string& name) override {
+    for (std::size_t i = 0; i < scene_.shapes.size(); ++i) {
+      if (scene_.shapes[i].name == name) return static_cast<int>(i);
+    }
+    throw problems::InputError(subject_, fmt::format("no shape \"{}\"", name));
+  }
+
+  int shape(const Shape& made) override {
+    out_.solids.push_back(make_solid(made, out_.pieces));
+    massless_.push_back(made.has_mesh());
+    return static_cast<int>(out_.solids.size()) - 1;
+  }
+
+  const Solid& solid(int solid) const override { return out_.solids[at(solid)]; }
+
+  void add(const Seedling& seedling) override {
+    Bodies& bodies = out_.bodies;
+    const int index = static_cast<int>(bodies.position.size());
+    const bool ball = seedling.solid < 0;
+    const bool free = !seedling.fixed && seedling.motion.empty();
+    require(!free || ball || !massless_[at(seedling.solid)], subject_, "body ", index,
+            " has a mesh, which has no mass, expected fixed = true or a motion");
+    const Pose pose = ball ? seedling.pose : seedling.pose * from_shape(seedling).inverse();
+    push(pose, seedling.velocity_m_s, seedling.angular_velocity_rad_s, seedling.material, free);
+    bodies.radius.push_back(ball ? seedling.radius_m : -1.0);
+    bodies.solid.push_back(ball ? Bodies::kBall : seedling.solid);
+    if (free) give_mass(seedling, index);
+    if (!seedling.motion.empty()) {
+      out_.driven.push_back({index, motion_index(scene_, seedling.motion), pose});
+    }
+  }
+
+  void add(const Plane& plane) {
+    const int index = static_cast<int>(out_.bodies.position.size());
+    const Pose pose{plane.point_m,
+                    Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), plane.normal)};
+    push(pose, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), plane.material, false);
+    out_.bodies.radius.push_back(-1.0);
+    out_.bodies.solid.push_back(Bodies::kPlane);
+    ++out_.bodies.planes;
+    out_.planes.push_back(plane);
+    if (!plane.motion.empty()) {
+      out_.driven.push_back({index, motion_index(scene_, plane.motion), pose});
+    }
+  }
 
  private:
+  const Pose& from_shape(const Seedling& seedling) const {
+    return out_.solids[at(seedling.solid)].from_shape;
+  }
+
+  void push(const Pose& pose, const Eigen::Vector3d& velocity,
+            const Eigen::Vector3d& angular_velocity, const std::string& material, bool free) {
+    Bodies& bodies = out_.bodies;
+    bodies.position.push_back(pose.position);
+    bodies.orientation.push_back(pose.orientation);
+    bodies.velocity.push_back(velocity);
+    bodies.angular_velocity.push_back(angular_velocity);
+    bodies.material.push_back(material_index(scene_, material));
+    bodies.mass.push_back(0.0);
+    bodies.moments.push_back(Eigen::Vector3d::Zero());
+    bodies.first_dof.push_back(free ? bodies.dofs : -1);
+    if (free) bodies.dofs += scene_.dimension == 2 ? 3 : 6;
+  }
+
+  void give_mass(const Seedling& seedling, int index) {
+    Bodies& bodies = out_.bodies;
+    const double density = scene_.materials[at(bodies.material[at(index)])].density_kg_m3;
+    if (seedling.solid < 0) {
+      const double R = seedling.radius_m;
+      const double mass = 4.0 / 3.0 * std::numbers::pi * R * R * R * density;
+      bodies.mass[at(index)] = mass;
+      bodies.moments[at(index)].setConstant(0.4 * mass * R * R);
+      return;
+    }
+    const Solid& solid = out_.solids[at(seedling.solid)];
+    bodies.mass[at(index)] = density * solid.volume_m3;
+    bodies.moments[at(index)] = density * solid.moments_m5;
+  }
+
+  const Scene& scene_;
+  std::string subject_;
+  Placement& out_;
   std::mt19937_64 engine_;
+  std::vector<bool> massless_;  // of each solid
 };
 
-void add_sphere(const Scene& scene, const Body& body, Spheres& spheres) {
-  const double volume = 4.0 / 3.0 * std::numbers::pi * std::pow(body.radius_m, 3);
-  const int material = material_index(scene, body.material);
-  const double mass = volume * scene.materials[static_cast<std::size_t>(material)].density_kg_m3;
-  spheres.position.push_back(body.position_m);
-  spheres.velocity.push_back(body.velocity_m_s);
-  spheres.angular_velocity.push_back(body.angular_velocity_rad_s);
-  spheres.orientation.push_back(Eigen::Quaterniond::Identity());
-  spheres.radius.push_back(body.radius_m);
-  spheres.mass.push_back(mass);
-  spheres.inertia.push_back(0.4 * mass * body.radius_m * body.radius_m);
-  spheres.material.push_back(material);
-  spheres.first_dof.push_back(body.fixed ? -1 : spheres.dofs);
-  if (!body.fixed) spheres.dofs += 6;
+void add_body(const Body& body, Nursery& nursery) {
+  Seedling seedling;
+  seedling.pose = pose_of(body.position_m, body.rotation_rad);
+  seedling.radius_m = body.radius_m;
+  if (!body.shape.empty()) seedling.solid = nursery.shape(body.shape);
+  seedling.material = body.material;
+  seedling.velocity_m_s = body.velocity_m_s;
+  seedling.angular_velocity_rad_s = body.angular_velocity_rad_s;
+  seedling.fixed = body.fixed;
+  seedling.motion = body.motion;
+  nursery.add(seedling);
 }
 
-void add_column(const Scene& scene, const Column& column, Random& random, Spheres& spheres) {
-  const double largest = column.largest_radius_m;
-  const double cell = 2.0 * largest;
-  // Room for n cells is room for n, whatever the quotient rounds to.
-  const auto cells_in = [&](double length) { return static_cast<int>(length / cell + 1e-9); };
-  const int side = cells_in(column.width_m);
-  const int layers = cells_in(column.height_m);
-  const double reach = 0.5 * column.width_m - largest + 1e-9 * largest;
-  for (int layer = 0; layer < layers; ++layer) {
-    for (int row = 0; row < side; ++row) {
-      for (int place = 0; place < side; ++place) {
-        const Eigen::Vector3d centre((place - 0.5 * (side - 1)) * cell,
-                                     (row - 0.5 * (side - 1)) * cell, (layer + 0.5) * cell);
-        if (column.section == Section::kCylinder && centre.head<2>().norm() > reach) continue;
-        Body body;
-        body.radius_m = column.smallest_radius_m + (largest - column.smallest_radius_m) * random();
-        const double room = column.jitter * (largest - body.radius_m);
-        for (int k = 0; k < 3; ++k) {
-          body.position_m[k] = column.base_m[k] + centre[k] + room * (2.0 * random() - 1.0);
-        }
-        body.material = column.material;
-        add_sphere(scene, body, spheres);
+void add_container(const Container& container, Builder& builder) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis == 1 && builder.dimension() == 2) continue;
+    for (const bool upper : {false, true}) {
+      const std::string side = fmt::format("{}{}", upper ? '+' : '-', "xyz"[axis]);
+      if (std::find(container.open.begin(), container.open.end(), side) != container.open.end()) {
+        continue;
       }
+      Plane plane;
+      plane.point_m = upper ? container.high_m : container.low_m;
+      plane.normal = (upper ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
+      plane.material = container.material;
+      plane.until_s = container.until_s;
+      builder.add(plane);
     }
   }
 }
 
-void add_stack(const Scene& scene, const Stack& stack, Spheres& spheres) {
-  for (std::int64_t i = 0; i < stack.count; ++i) {
-    Body body;
-    body.radius_m = stack.radius_m;
-    body.position_m = stack.base_m;
-    body.position_m.z() += static_cast<double>(2 * i + 1) * stack.radius_m;
-    body.material = stack.material;
-    add_sphere(scene, body, spheres);
-  }
+template <class Items>
+void place_all(const Items& items, Nursery& nursery) {
+  for (const auto& item : items) place(item, nursery);
 }
 
-void add_bed(const Scene& scene, const Bed& bed, Spheres& spheres) {
-  const double cell = 2.0 * bed.radius_m;
-  const int side = std::max(1, static_cast<int>(std::ceil(bed.width_m / cell - 1e-9)));
-  for (int k = 0; k < side * side; ++k) {
-    Body body;
-    body.radius_m = bed.radius_m;
-    body.position_m = bed.centre_m;
-    body.position_m.x() += (k % side - 0.5 * (side - 1)) * cell;
-    body.position_m.y() += (k / side - 0.5 * (side - 1)) * cell;
-    body.material = bed.material;
-    body.fixed = true;
-    add_sphere(scene, body, spheres);
+// Every two materials that can meet have a law.
+void check_laws(const Scene& scene, const Bodies& bodies, std::string_view subject) {
+  std::vector<bool> met(scene.materials.size(), false), free(met);
+  for (std::size_t i = 0; i < bodies.material.size(); ++i) {
+    met[at(bodies.material[i])] = true;
+    if (bodies.first_dof[i] >= 0) free[at(bodies.material[i])] = true;
   }
-}
-
-// A pair deeper than the tolerance allows; plane >= 0 stands for the second sphere.
-struct Overlap {
-  int first = 0, second = 0;
-  int plane = -1;
-  double depth = 0.0;
-  Eigen::Vector3d normal;  // towards `first`
-};
-
-void find_sphere_overlaps(const Spheres& spheres, double tolerance, CellList& cells,
-                          std::vector<Overlap>& overlaps) {
-  std::vector<BodyPair> pairs;
-  cells.find_pairs(spheres.position, spheres.radius, 0.0, pairs);
-  for (const auto& [first, second] : pairs) {
-    const auto a = static_cast<std::size_t>(first);
-    const auto b = static_cast<std::size_t>(second);
-    const Eigen::Vector3d offset = spheres.position[a] - spheres.position[b];
-    const double distance = offset.norm();
-    const double depth = spheres.radius[a] + spheres.radius[b] - distance;
-    if (depth <= tolerance * std::min(spheres.radius[a], spheres.radius[b])) continue;
-    const Eigen::Vector3d normal =
-        distance > 0.0 ? Eigen::Vector3d(offset / distance) : Eigen::Vector3d::UnitZ();
-    overlaps.push_back({first, second, -1, depth, normal});
-  }
-}
-
-void find_plane_overlaps(const Scene& scene, const Spheres& spheres, double tolerance,
-                         std::vector<Overlap>& overlaps) {
-  for (int i = 0; i < spheres.count(); ++i) {
-    const auto a = static_cast<std::size_t>(i);
-    if (spheres.first_dof[a] < 0) continue;  // a fixed sphere may be set into a wall
-    for (std::size_t p = 0; p < scene.planes.size(); ++p) {
-      const Plane& plane = scene.planes[p];
-      const double depth =
-          spheres.radius[a] - plane.normal.dot(spheres.position[a] - plane.point_m);
-      if (depth <= tolerance * spheres.radius[a]) continue;
-      overlaps.push_back({i, i, static_cast<int>(p), depth, plane.normal});
+  for (std::size_t a = 0; a < met.size(); ++a) {
+    for (std::size_t b = 0; b < met.size(); ++b) {
+      if (!free[a] || !met[b]) continue;
+      const std::string &first = scene.materials[a].name, &second = scene.materials[b].name;
+      require(law_between(scene, first, second).has_value(), subject, "pairs: no law between \"",
+              first, "\" and \"", second, "\", expected a [[pairs]] or [default_pair] for them");
     }
   }
-}
-
-std::vector<Overlap> find_overlaps(const Scene& scene, const Spheres& spheres, double tolerance,
-                                   CellList& cells) {
-  std::vector<Overlap> overlaps;
-  find_sphere_overlaps(spheres, tolerance, cells, overlaps);
-  find_plane_overlaps(scene, spheres, tolerance, overlaps);
-  std::erase_if(overlaps, [&](const Overlap& overlap) {
-    return spheres.first_dof[static_cast<std::size_t>(overlap.first)] < 0 &&
-           spheres.first_dof[static_cast<std::size_t>(overlap.second)] < 0;
-  });
-  return overlaps;
-}
-
-void part(const Overlap& overlap, Spheres& spheres) {
-  const auto a = static_cast<std::size_t>(overlap.first);
-  const auto b = static_cast<std::size_t>(overlap.second);
-  const bool a_moves = spheres.first_dof[a] >= 0;
-  const bool b_moves = overlap.plane < 0 && spheres.first_dof[b] >= 0;
-  const double share = a_moves && b_moves ? 0.5 : 1.0;
-  if (a_moves) spheres.position[a] += share * overlap.depth * overlap.normal;
-  if (b_moves) spheres.position[b] -= share * overlap.depth * overlap.normal;
-}
-
-void resolve_overlaps(const Scene& scene, std::string_view subject, CellList& cells,
-                      Spheres& spheres) {
-  for (int sweep = 0; sweep < kLargestSweepCount; ++sweep) {
-    const auto overlaps = find_overlaps(scene, spheres, 0.5 * kOverlapTolerance, cells);
-    if (overlaps.empty()) return;
-    for (const Overlap& overlap : overlaps) part(overlap, spheres);
-  }
-  throw problems::InputError(subject, "resolve: the spheres do not fit, " +
-                                          std::to_string(kLargestSweepCount) +
-                                          " sweeps did not part them");
-}
-
-void refuse_overlaps(const Scene& scene, std::string_view subject, CellList& cells,
-                     const Spheres& spheres) {
-  const auto overlaps = find_overlaps(scene, spheres, kOverlapTolerance, cells);
-  if (overlaps.empty()) return;
-  const Overlap& found = overlaps.front();
-  const bool with_plane = found.plane >= 0;
-  problems::require(false, subject, "body ", found.first, " and ", with_plane ? "plane " : "body ",
-                    with_plane ? found.plane : found.second, " overlap by ", found.depth,
-                    " m, expected at most ", kOverlapTolerance,
-                    " of the radius (or resolve = true)");
 }
 
 }  // namespace
 
-Spheres place_spheres(const Scene& scene, std::string_view subject) {
-  Spheres spheres;
-  Random random(scene.seed);
-  for (const Body& body : scene.bodies) add_sphere(scene, body, spheres);
-  for (const Column& column : scene.columns) add_column(scene, column, random, spheres);
-  for (const Stack& stack : scene.stacks) add_stack(scene, stack, spheres);
-  for (const Bed& bed : scene.beds) add_bed(scene, bed, spheres);
-  problems::require(spheres.dofs > 0, subject, "no body can move, expected at least one");
-  CellList cells;
-  if (scene.resolve) resolve_overlaps(scene, subject, cells, spheres);
-  refuse_overlaps(scene, subject, cells, spheres);
-  return spheres;
+Placement place_bodies(const Scene& scene, std::string_view subject) {
+  Placement out;
+  Builder builder(scene, subject, out);
+  for (const Body& body : scene.bodies) add_body(body, builder);
+  place_all(scene.columns, builder);
+  place_all(scene.stacks, builder);
+  place_all(scene.beds, builder);
+  place_all(scene.lattices, builder);
+  place_all(scene.depositions, builder);
+  place_all(scene.walls, builder);
+  place_all(scene.arches, builder);
+  place_all(scene.towers, builder);
+  place_all(scene.clumps, builder);
+  place_all(scene.hoppers, builder);
+  place_all(scene.drums, builder);
+  for (const Plane& plane : scene.planes) builder.add(plane);
+  for (const Container& container : scene.containers) add_container(container, builder);
+  require(out.bodies.dofs > 0, subject, "no body can move, expected at least one");
+  check_laws(scene, out.bodies, subject);
+  if (scene.resolve) resolve_overlaps(scene.dimension, subject, out);
+  refuse_overlaps(scene.dimension, subject, out);
+  return out;
+}
+
+void drive(const Scene& scene, const Placement& placement, double time_s, Bodies& bodies) {
+  for (const Driven& driven : placement.driven) {
+    const Motion& motion = scene.motions[at(driven.motion)];
+    const Pose pose = motion.displacement(time_s) * driven.rest;
+    const Twist twist = mean_twist(motion, time_s, scene.step_s, pose.position);
+    bodies.position[at(driven.body)] = pose.position;
+    bodies.orientation[at(driven.body)] = pose.orientation;
+    bodies.velocity[at(driven.body)] = twist.velocity_m_s;
+    bodies.angular_velocity[at(driven.body)] = twist.rate_rad_s;
+  }
 }
 
 }  // namespace conebench::dem

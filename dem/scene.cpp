@@ -5,11 +5,19 @@
 #include "problems/error.h"
 
 namespace conebench::dem {
+
 int material_index(const Scene& scene, std::string_view name) {
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     if (scene.materials[i].name == name) return static_cast<int>(i);
   }
   throw problems::InputError(scene.name, fmt::format("no material \"{}\"", name));
+}
+
+int motion_index(const Scene& scene, std::string_view name) {
+  for (std::size_t i = 0; i < scene.motions.size(); ++i) {
+    if (scene.motions[i].name == name) return static_cast<int>(i);
+  }
+  throw problems::InputError(scene.name, fmt::format("no motion \"{}\"", name));
 }
 
 std::optional<PairLaw> law_between(const Scene& scene, std::string_view first,

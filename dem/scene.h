@@ -1,12 +1,27 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "dem/generators/arch.h"
+#include "dem/generators/bed.h"
+#include "dem/generators/clump.h"
+#include "dem/generators/column.h"
+#include "dem/generators/deposition.h"
+#include "dem/generators/drum.h"
+#include "dem/generators/hopper.h"
+#include "dem/generators/lattice.h"
+#include "dem/generators/stack.h"
+#include "dem/generators/tower.h"
+#include "dem/generators/wall.h"
+#include "dem/motion.h"
+#include "dem/shape.h"
 #include "problems/engine/scene_file.h"
 
 namespace conebench::dem {
@@ -16,12 +31,27 @@ struct Material {
   double density_kg_m3 = 0.0;  ///< > 0
 };
 
+/// How the strength of a bond depends on how far it is open.
+enum class Decay {
+  kNone,    ///< whole until the rupture distance
+  kLinear,  ///< falls to 0 at the rupture distance
+};
+
 /// What happens where two materials touch.
 struct PairLaw {
   double friction = 0.0;         ///< Coulomb coefficient [-], >= 0; 0 makes a cone of dimension 1
   double restitution = 0.0;      ///< Newton's e [-], 0 <= e <= 1
-  double tensile_force_N = 0.0;  ///< strength of a bond, >= 0; needs friction > 0
+  double tensile_force_N = 0.0;  ///< strength of a bond, >= 0, a contact point; needs friction > 0
   double rupture_distance_m = 0.0;  ///< gap at which a bond breaks, > 0 where there are bonds
+  Decay decay = Decay::kNone;
+  /// Bonds that break later than this are broken for good; infinity: contact forms them again.
+  double bonds_form_until_s = std::numeric_limits<double>::infinity();
+
+  /// Of a bond that is open by `gap_m`.
+  double strength_N(double gap_m) const {
+    if (decay == Decay::kNone) return tensile_force_N;
+    return tensile_force_N * (1.0 - std::clamp(gap_m / rupture_distance_m, 0.0, 1.0));
+  }
 };
 
 struct Pair {
@@ -35,65 +65,77 @@ struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit length
   std::string material;
   double until_s = std::numeric_limits<double>::infinity();  ///< taken away at this time
+  std::string motion;                                        ///< that it is driven by; empty: none
 };
 
-/// A sphere.
-struct Body {
-  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
-  double radius_m = 0.0;  ///< > 0
+/// Generator: the planes of a box that bodies are inside of.
+struct Container {
+  Eigen::Vector3d low_m = Eigen::Vector3d::Zero(), high_m = Eigen::Vector3d::Zero();
+  std::vector<std::string> open;  ///< sides without a plane: "-x", "+x", "-y", "+y", "-z", "+z"
   std::string material;
-  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+  double until_s = std::numeric_limits<double>::infinity();
+};
+
+/// A part of a shape as a scene writes it.
+struct ScenePart {
+  Piece piece;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector
+  std::filesystem::path file;  ///< that a hull's points, or a mesh, were read from
+};
+
+/// A shape that bodies refer to by name.
+struct SceneShape {
+  std::string name;
+  std::vector<ScenePart> parts;
+
+  Shape shape() const;
+};
+
+/// A ball, or a body of a named shape.
+struct Body {
+  Eigen::Vector3d position_m =
+      Eigen::Vector3d::Zero();  ///< of the ball's centre, or shape's origin
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  ///< rotation vector, of the shape
+  std::string shape;                                       ///< empty: a ball
+  double radius_m = 0.0;                                   ///< > 0, of a ball
+  std::string material;
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();  ///< of the centre of mass
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();
   bool fixed = false;  ///< held in place: no degrees of freedom
-};
-
-enum class Section { kBox, kCylinder };
-
-/// Generator: spheres of random radii on a cubic lattice of spacing 2 max(radius), each moved at
-/// random in the room that its cell leaves it, layer by layer from the base upwards.
-struct Column {
-  Section section = Section::kBox;
-  Eigen::Vector3d base_m = Eigen::Vector3d::Zero();  ///< centre of the base; the axis is z
-  double width_m = 0.0;                              ///< side of the square, or diameter
-  double height_m = 0.0;
-  double smallest_radius_m = 0.0;
-  double largest_radius_m = 0.0;
-  double jitter = 1.0;  ///< share of the free room that is used [-], 0..1
-  std::string material;
-};
-
-/// Generator: equal spheres that touch, one on top of the other along z.
-struct Stack {
-  Eigen::Vector3d base_m = Eigen::Vector3d::Zero();  ///< where the lowest sphere touches the ground
-  std::int64_t count = 0;
-  double radius_m = 0.0;
-  std::string material;
-};
-
-/// Generator: a rough floor of equal spheres held in place on a square lattice, touching.
-struct Bed {
-  Eigen::Vector3d centre_m = Eigen::Vector3d::Zero();  ///< of the layer: all centres at its z
-  double width_m = 0.0;                                ///< side of the square that is covered
-  double radius_m = 0.0;
-  std::string material;
+  std::string motion;  ///< that it is driven by; empty: none
 };
 
 /// A simulation as it is written in a scene file (TOML, SI units in the key names).
 struct Scene : engine::SceneHeader {
+  /// 3, or 2: motion in the plane y = 0 only; bodies keep their volume and mass.
+  int dimension = 3;
   double skin_m = 0.0;   ///< contacts with a smaller gap are looked at, > 0
-  bool resolve = false;  ///< push overlapping spheres apart instead of refusing them
+  bool resolve = false;  ///< push overlapping bodies apart instead of refusing them
   std::vector<Material> materials;
   std::optional<PairLaw> default_pair;  ///< for materials that no pair names
   std::vector<Pair> pairs;
+  std::vector<SceneShape> shapes;
+  std::vector<Motion> motions;
   std::vector<Plane> planes;
+  std::vector<Container> containers;
   std::vector<Body> bodies;
   std::vector<Column> columns;
   std::vector<Stack> stacks;
   std::vector<Bed> beds;
+  std::vector<Lattice> lattices;
+  std::vector<Deposition> depositions;
+  std::vector<Wall> walls;
+  std::vector<Arch> arches;
+  std::vector<Tower> towers;
+  std::vector<Clump> clumps;
+  std::vector<Hopper> hoppers;
+  std::vector<Drum> drums;
 };
 
-/// Index of a material. Throws InputError naming it and the known ones.
+/// Index of a material, or of a motion. Throws InputError naming it.
 int material_index(const Scene& scene, std::string_view name);
+int motion_index(const Scene& scene, std::string_view name);
 
 /// The law between two materials, or nothing when neither a pair nor a default gives one.
 std::optional<PairLaw> law_between(const Scene& scene, std::string_view first,

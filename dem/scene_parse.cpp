@@ -1,20 +1,22 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "dem/placement.h"
 #include "dem/scene.h"
-#include "problems/error.h"
-#include "problems/suggest.h"
+#include "dem/scene_check.h"
+#include "dem/scene_motions.h"
+#include "dem/scene_shapes.h"
 
 namespace conebench::dem {
 namespace {
 
 using engine::Range;
 using engine::TomlReader;
-using problems::InputError;
-using problems::require;
+
+constexpr std::string_view kSides[] = {"-x", "+x", "-y", "+y", "-z", "+z"};
 
 Material read_material(TomlReader in) {
   Material material{in.text("name"), in.number("density_kg_m3", Range::kPositive)};
@@ -23,11 +25,15 @@ Material read_material(TomlReader in) {
 }
 
 PairLaw read_law(TomlReader& in) {
+  static const std::string kDecays[] = {"none", "linear"};
   PairLaw law;
   law.friction = in.number("friction", Range::kNotNegative);
   law.restitution = in.number("restitution", Range::kUnitInterval, 0.0);
   law.tensile_force_N = in.number("tensile_force_N", Range::kNotNegative, 0.0);
   law.rupture_distance_m = in.number("rupture_distance_m", Range::kNotNegative, 0.0);
+  law.decay = in.word("decay", kDecays, "none") == 0 ? Decay::kNone : Decay::kLinear;
+  law.bonds_form_until_s =
+      in.number("bonds_form_until_s", Range::kNotNegative, law.bonds_form_until_s);
   if (law.tensile_force_N > 0.0 && law.friction == 0.0) {
     in.fail("tensile_force_N", "a cohesive pair needs friction > 0, found friction 0");
   }
@@ -60,116 +66,78 @@ Plane read_plane(TomlReader in) {
   plane.normal = is_unit ? normal : normal.normalized();
   plane.material = in.text("material");
   plane.until_s = in.number("until_s", Range::kNotNegative, plane.until_s);
+  plane.motion = in.text("motion", "");
   in.finish();
   return plane;
+}
+
+Container read_container(TomlReader in) {
+  Container container;
+  container.low_m = in.vector("low_m");
+  container.high_m = in.vector("high_m");
+  if (!(container.low_m.array() < container.high_m.array()).all()) {
+    in.fail("high_m", "expected above low_m in every direction");
+  }
+  if (in.has("open")) container.open = in.some_texts("open");
+  for (const std::string& side : container.open) {
+    if (std::find(std::begin(kSides), std::end(kSides), side) == std::end(kSides)) {
+      in.fail("open",
+              fmt::format("found \"{}\", expected \"{}\"", side, fmt::join(kSides, "\", \"")));
+    }
+  }
+  container.material = in.text("material");
+  container.until_s = in.number("until_s", Range::kNotNegative, container.until_s);
+  in.finish();
+  return container;
+}
+
+void check_still(const TomlReader& in, const Body& body) {
+  const std::string detail = std::string(body.fixed ? "a fixed body does not move"
+                                                    : "a driven body moves as its motion does") +
+                             ", expected [0, 0, 0]";
+  if (!body.velocity_m_s.isZero(0.0)) in.fail("velocity_m_s", detail);
+  if (!body.angular_velocity_rad_s.isZero(0.0)) in.fail("angular_velocity_rad_s", detail);
 }
 
 Body read_body(TomlReader in) {
   Body body;
   body.position_m = in.vector("position_m");
-  body.radius_m = in.number("radius_m", Range::kPositive);
+  body.rotation_rad = in.vector("rotation_rad", body.rotation_rad);
+  body.shape = in.text("shape", "");
+  if (body.shape.empty()) body.radius_m = in.number("radius_m", Range::kPositive);
   body.material = in.text("material");
   body.velocity_m_s = in.vector("velocity_m_s", body.velocity_m_s);
   body.angular_velocity_rad_s = in.vector("angular_velocity_rad_s", body.angular_velocity_rad_s);
   body.fixed = in.boolean("fixed", false);
-  if (body.fixed && !body.velocity_m_s.isZero(0.0)) {
-    in.fail("velocity_m_s", "a fixed body does not move, expected [0, 0, 0]");
+  body.motion = in.text("motion", "");
+  if (body.fixed && !body.motion.empty()) {
+    in.fail("motion", "a fixed body does not move, expected fixed = false, or no motion");
   }
-  if (body.fixed && !body.angular_velocity_rad_s.isZero(0.0)) {
-    in.fail("angular_velocity_rad_s", "a fixed body does not turn, expected [0, 0, 0]");
-  }
+  if (body.fixed || !body.motion.empty()) check_still(in, body);
   in.finish();
   return body;
 }
 
-Column read_column(TomlReader in) {
-  Column column;
-  const std::string section = in.text("section", "box");
-  if (section != "box" && section != "cylinder") {
-    in.fail("section", fmt::format("found \"{}\", expected \"box\" or \"cylinder\"", section));
-  }
-  column.section = section == "box" ? Section::kBox : Section::kCylinder;
-  column.base_m = in.vector("base_m", column.base_m);
-  column.width_m = in.number("width_m", Range::kPositive);
-  column.height_m = in.number("height_m", Range::kPositive);
-  const Eigen::Vector2d radii = in.interval("radius_range_m", Range::kPositive);
-  column.smallest_radius_m = radii[0];
-  column.largest_radius_m = radii[1];
-  column.jitter = in.number("jitter", Range::kUnitInterval, column.jitter);
-  column.material = in.text("material");
-  if (std::min(column.width_m, column.height_m) < 2.0 * column.largest_radius_m) {
-    in.fail("radius_range_m", "the largest sphere does not fit into width_m x height_m");
-  }
-  in.finish();
-  return column;
-}
-
-Stack read_stack(TomlReader in) {
-  Stack stack;
-  stack.base_m = in.vector("base_m", stack.base_m);
-  stack.count = in.integer("count", 1);
-  stack.radius_m = in.number("radius_m", Range::kPositive);
-  stack.material = in.text("material");
-  in.finish();
-  return stack;
-}
-
-Bed read_bed(TomlReader in) {
-  Bed bed;
-  bed.centre_m = in.vector("centre_m", bed.centre_m);
-  bed.width_m = in.number("width_m", Range::kPositive);
-  bed.radius_m = in.number("radius_m", Range::kPositive);
-  bed.material = in.text("material");
-  in.finish();
-  return bed;
-}
-
-template <class T>
-std::vector<T> read_all(TomlReader& in, std::string_view key, T (*read)(TomlReader)) {
+template <class T, class... Args>
+std::vector<T> read_all(TomlReader& in, std::string_view key, T (*read)(TomlReader, Args...),
+                        Args... args) {
   std::vector<T> items;
-  for (TomlReader& reader : in.tables(key)) items.push_back(read(std::move(reader)));
+  for (TomlReader& reader : in.tables(key)) items.push_back(read(std::move(reader), args...));
   return items;
 }
 
-void check_materials(const Scene& scene, std::string_view subject) {
-  std::set<std::string> names;
-  for (const Material& material : scene.materials) {
-    require(names.insert(material.name).second, subject, "materials: \"", material.name,
-            "\" is there twice");
-  }
-  const auto known = [&](const std::string& name, std::string_view where) {
-    if (names.contains(name)) return;
-    const std::vector<std::string> candidates(names.begin(), names.end());
-    throw InputError(subject, fmt::format("{}: no material \"{}\"{}", where, name,
-                                          problems::suggestion(name, candidates)));
-  };
-  for (const auto& pair : scene.pairs) {
-    known(pair.first, "pairs");
-    known(pair.second, "pairs");
-  }
-  for (const auto& plane : scene.planes) known(plane.material, "planes");
-  for (const auto& body : scene.bodies) known(body.material, "bodies");
-  for (const auto& column : scene.columns) known(column.material, "columns");
-  for (const auto& stack : scene.stacks) known(stack.material, "stacks");
-  for (const auto& bed : scene.beds) known(bed.material, "beds");
-}
-
-// Every two materials that can meet have a law.
-void check_laws(const Scene& scene, std::string_view subject) {
-  std::set<std::string> of_bodies;
-  std::set<std::string> of_all;
-  for (const auto& body : scene.bodies) (body.fixed ? of_all : of_bodies).insert(body.material);
-  for (const auto& column : scene.columns) of_bodies.insert(column.material);
-  for (const auto& stack : scene.stacks) of_bodies.insert(stack.material);
-  of_all.insert(of_bodies.begin(), of_bodies.end());
-  for (const auto& bed : scene.beds) of_all.insert(bed.material);
-  for (const auto& plane : scene.planes) of_all.insert(plane.material);
-  for (const std::string& first : of_bodies) {
-    for (const std::string& second : of_all) {
-      require(law_between(scene, first, second).has_value(), subject, "pairs: no law between \"",
-              first, "\" and \"", second, "\", expected a [[pairs]] or [default_pair] for them");
-    }
-  }
+void read_generators(TomlReader& in, Scene& scene) {
+  scene.columns = read_all(in, "columns", read_column);
+  scene.stacks = read_all(in, "stacks", read_stack);
+  scene.beds = read_all(in, "beds", read_bed);
+  scene.lattices = read_all(in, "lattices", read_lattice);
+  scene.depositions = read_all(in, "depositions", read_deposition);
+  scene.walls = read_all(in, "walls", read_wall);
+  scene.arches = read_all(in, "arches", read_arch);
+  scene.towers = read_all(in, "towers", read_tower);
+  scene.clumps = read_all(in, "clumps", read_clump);
+  scene.hoppers = read_all(in, "hoppers", read_hopper);
+  scene.drums = read_all(in, "drums", read_drum);
 }
 
 }  // namespace
@@ -179,20 +147,22 @@ Scene parse_scene(std::string_view text, std::string_view subject) {
   TomlReader in(table, "", std::string(subject));
   Scene scene;
   static_cast<engine::SceneHeader&>(scene) = engine::read_header(in, "dem");
+  scene.dimension = static_cast<int>(in.integer("dimension", 2, scene.dimension));
+  if (scene.dimension > 3) in.fail("dimension", "expected 2 or 3");
   scene.skin_m = in.number("skin_m", Range::kPositive);
   scene.resolve = in.boolean("resolve", scene.resolve);
   if (auto law = in.table("default_pair")) scene.default_pair = read_default_pair(std::move(*law));
   scene.materials = read_all(in, "materials", read_material);
   scene.pairs = read_all(in, "pairs", read_pair);
+  scene.shapes = read_all(in, "shapes", read_shape, subject);
+  scene.motions = read_all(in, "motions", read_motion, subject);
   scene.planes = read_all(in, "planes", read_plane);
+  scene.containers = read_all(in, "containers", read_container);
   scene.bodies = read_all(in, "bodies", read_body);
-  scene.columns = read_all(in, "columns", read_column);
-  scene.stacks = read_all(in, "stacks", read_stack);
-  scene.beds = read_all(in, "beds", read_bed);
+  read_generators(in, scene);
   in.finish();
-  check_materials(scene, subject);
-  check_laws(scene, subject);
-  place_spheres(scene, subject);
+  check_scene(scene, subject);
+  place_bodies(scene, subject);
   return scene;
 }
 

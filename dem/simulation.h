@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+
 #include "dem/assembly.h"
 #include "dem/energy.h"
 #include "dem/step.h"
@@ -16,12 +18,15 @@ struct Summary {
   std::int64_t last_cones = 0;
   std::int64_t last_bonds = 0;
   double deepest_overlap_m = 0.0;  ///< of all steps
-  double solve_s = 0.0;            ///< in the step solver, as it says
-  double engine_s = 0.0;           ///< wall clock, without the step solver and the observers
+  double contact_s = 0.0;          ///< wall clock: broad and narrow phase
+  double assembly_s = 0.0;         ///< wall clock: the problem made
+  double solve_s = 0.0;            ///< wall clock: waiting for the step solver, islands included
+  double engine_s = 0.0;           ///< wall clock without solve_s and the observers
 };
 
-/// Rigid spheres between walls, with Coulomb friction, restitution and cohesion: non-smooth
-/// contact dynamics, time-stepping of Moreau and Jean with one cone problem a step (assembly.h).
+/// Rigid bodies between walls, with Coulomb friction, restitution and cohesion: non-smooth contact
+/// dynamics, time-stepping of Moreau and Jean with one cone problem a step (assembly.h), solved
+/// island by island.
 ///
 ///   contacts listed at x;  M v = f + H^T r  with (u, r) in the cones;
 ///   x += h v;  rotation by exp(h omega).
@@ -43,26 +48,31 @@ class Simulation {
   void run(std::int64_t count);
 
   const Scene& scene() const { return scene_; }
-  const Spheres& spheres() const { return spheres_; }
+  const Bodies& bodies() const { return placement_.bodies; }
+  const Placement& placement() const { return placement_; }
   const ContactList& contacts() const { return contacts_; }
   const EnergyLedger& energy() const { return energy_; }
   const Summary& summary() const { return summary_; }
+  /// Writes the state to a file, atomically; restart() goes on from there bit for bit.
+  /// Errors: OutputError; InputError naming the file when it is not of this scene as it stands.
+  void save(const std::filesystem::path& path) const;
+  void restart(const std::filesystem::path& path);
+
   double time_s() const { return static_cast<double>(summary_.steps) * scene_.step_s; }
 
  private:
-  void accelerate();
-  void apply_reactions(const problems::Problem& problem, const Eigen::VectorXd& shifted_r);
-  void push(const Contact& contact, const Eigen::Vector3d& r);
+  Bodies& bodies_now() { return placement_.bodies; }
+  void fly();
+  void apply(const problems::Problem& problem, const engine::StepAnswer& answer);
   void move();
   void book_step(const engine::StepAnswer& answer);
 
   Scene scene_;
   engine::StepSolver solver_;
-  Spheres spheres_;
-  Spheres before_;
+  Placement placement_;  // its bodies are the present ones
+  Bodies before_;
   ContactList contacts_;
   Assembly assembly_;
-  std::vector<Eigen::Vector3d> local_reactions_;  // of each cone, unshifted
   EnergyLedger energy_;
   Summary summary_;
   std::vector<Observer> observers_;

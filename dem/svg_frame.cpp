@@ -4,176 +4,134 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <numbers>
-#include <numeric>
 
-#include "problems/engine/svg.h"
+#include "dem/svg_bodies.h"
+#include "dem/svg_floors.h"
 
 namespace conebench::dem {
 namespace {
 
-constexpr int kColours = 32;
-using engine::Colour;
-using engine::hex;
-using engine::viridis;
+using Eigen::Vector3d;
 
-class Drawing {
- public:
-  Drawing(const Scene& scene, const Frame& frame, const View& view)
-      : scene_(scene), frame_(frame), view_(view), camera_(view) {}
+constexpr double kMuchLarger = 3.0;  // than the room of the free bodies
+constexpr double kAtRest = 1e-4;     // of the speed of a fall through the picture: seen as rest
+constexpr double kRoom = 0.04;       // beside what is shown, of its larger side
 
-  std::string draw() {
-    out_ = engine::svg_start(camera_.height_px());
-    define_colours();
-    for (const Plane& plane : scene_.planes) {
-      if (is_floor(plane)) draw_floor(plane);
-    }
-    draw_spheres();
-    draw_caption();
-    return std::move(out_) + "</svg>\n";
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// In the frame of the eye.
+Eigen::AlignedBox3d box_of(std::span<const Solid> solids, const Bodies& bodies, int body,
+                           const View& view) {
+  const Pose eye{Vector3d::Zero(), Eigen::Quaterniond(view.axes)};
+  const Pose pose = eye * bodies.pose(body);
+  if (bodies.is_ball(body)) {
+    const Vector3d reach = Vector3d::Constant(bodies.radius[at(body)]);
+    return {pose.position - reach, pose.position + reach};
   }
-
- private:
-  template <class... Args>
-  void print(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  Eigen::AlignedBox3d box;
+  for (const Part& part : solids[at(bodies.solid[at(body)])].parts) {
+    const Bounds bounds = bounds_of(part.piece, pose * part.pose);
+    box.extend(Eigen::AlignedBox3d(bounds.low, bounds.high));
   }
+  return box;
+}
 
-  // A ball with light from the upper left and a dark rim.
-  void define_ball(std::string_view id, const Colour& base) {
-    print(
-        "<radialGradient id=\"{}\" cx=\"0.36\" cy=\"0.32\" r=\"0.72\"><stop offset=\"0\" "
-        "stop-color=\"{}\"/><stop offset=\"0.45\" stop-color=\"{}\"/><stop offset=\"1\" "
-        "stop-color=\"{}\"/></radialGradient>\n",
-        id, hex(0.5 * base + Colour::Constant(127.0)), hex(base), hex(0.55 * base));
-  }
-
-  void define_colours() {
-    out_ += "<defs>\n";
-    for (int k = 0; k < kColours; ++k) {
-      define_ball(fmt::format("s{}", k), viridis(k / (kColours - 1.0)));
-    }
-    define_ball("fixed", Colour(200, 206, 210));
-    out_ += engine::scale_gradient() + "</defs>\n";
-  }
-
-  bool is_floor(const Plane& plane) const {
-    return frame_.time_s < plane.until_s && view_.axes.row(1).dot(plane.normal) > 0.3 &&
-           view_.axes.row(2).dot(plane.normal) > 0.0;
-  }
-
-  // The part of the plane below what is shown, and the shadow of every sphere on it.
-  void draw_floor(const Plane& plane) {
-    const Eigen::Vector3d right =
-        Eigen::Vector3d(view_.axes.row(2)).cross(plane.normal).normalized() * -1.0;
-    const Eigen::Vector3d away = plane.normal.cross(right);
-    Eigen::AlignedBox2d patch;
-    for (int k = 0; k < 8; ++k) {
-      const Eigen::Vector3d corner(k & 1 ? view_.high[0] : view_.low[0],
-                                   k & 2 ? view_.high[1] : view_.low[1],
-                                   k & 4 ? view_.high[2] : view_.low[2]);
-      const Eigen::Vector3d x = view_.axes.transpose() * corner - plane.point_m;
-      patch.extend(Eigen::Vector2d(right.dot(x), away.dot(x)));
-    }
-    print("<polygon fill=\"#eceff1\" stroke=\"#b0bec5\" points=\"");
-    using Box = Eigen::AlignedBox2d;
-    for (const auto corner : {Box::BottomLeft, Box::BottomRight, Box::TopRight, Box::TopLeft}) {
-      const Eigen::Vector2d place = patch.corner(corner);
-      const Eigen::Vector2d at = camera_(plane.point_m + place[0] * right + place[1] * away);
-      print("{:.1f},{:.1f} ", at[0], at[1]);
-    }
-    print("\"/>\n<g fill=\"#37474f\" fill-opacity=\"0.13\">\n");
-    for (std::size_t i = 0; i < frame_.positions.size(); ++i) {
-      if (!frame_.fixed[i]) draw_shadow(plane, i);
-    }
-    out_ += "</g>\n";
-  }
-
-  void draw_shadow(const Plane& plane, std::size_t i) {
-    const Eigen::Vector3d& x = frame_.positions[i];
-    const double height = plane.normal.dot(x - plane.point_m);
-    const Eigen::Vector2d at = camera_(x - height * plane.normal);
-    const double radius = camera_.scale() * frame_.radii[i];
-    const double flat = view_.axes.row(2).dot(plane.normal);
-    const double turn =
-        std::atan2(-view_.axes.row(0).dot(plane.normal), view_.axes.row(1).dot(plane.normal));
-    print(
-        "<ellipse cx=\"{0:.1f}\" cy=\"{1:.1f}\" rx=\"{2:.1f}\" ry=\"{3:.1f}\" "
-        "transform=\"rotate({4:.1f} {0:.1f} {1:.1f})\"/>\n",
-        at[0], at[1], radius, radius * flat, -turn * 180.0 / std::numbers::pi);
-  }
-
-  void draw_spheres() {
-    std::vector<std::size_t> order(frame_.positions.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-      return camera_.depth(frame_.positions[a]) < camera_.depth(frame_.positions[b]);
-    });
-    for (const std::size_t i : order) {
-      const Eigen::Vector2d at = camera_(frame_.positions[i]);
-      if (frame_.fixed[i]) {
-        print("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"url(#fixed)\"/>\n", at[0],
-              at[1], camera_.scale() * frame_.radii[i]);
-        continue;
-      }
-      const double share = std::clamp(frame_.speeds[i] / view_.fastest_m_s, 0.0, 1.0);
-      print("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\" fill=\"url(#s{})\"/>\n", at[0], at[1],
-            camera_.scale() * frame_.radii[i], std::lround(share * (kColours - 1)));
+template <class Visit>
+void for_each_body(std::span<const Frame> frames, bool free, const Visit& visit) {
+  for (const Frame& frame : frames) {
+    for (int i = 0; i < frame.bodies.count(); ++i) {
+      if (frame.bodies.is_free(i) == free) visit(frame.bodies, i);
     }
   }
+}
 
-  void draw_caption() {
-    const bool held = std::any_of(scene_.planes.begin(), scene_.planes.end(), [&](const auto& p) {
-      return std::isfinite(p.until_s) && frame_.time_s < p.until_s;
-    });
-    out_ += engine::caption(
-        {.title = scene_.name,
-         .moment = fmt::format("t = {:.3f} s{}", frame_.time_s, held ? ", held by walls" : ""),
-         .meaning = "speed",
-         .end = fmt::format("{:.2g} m/s", view_.fastest_m_s)});
+void fit_window(std::span<const Solid> solids, std::span<const Frame> frames, View& view) {
+  Eigen::AlignedBox3d shown;
+  for_each_body(frames, true, [&](const Bodies& bodies, int i) {
+    shown.extend(box_of(solids, bodies, i, view));
+  });
+  const double much = kMuchLarger * shown.sizes().maxCoeff();
+  for_each_body(frames, false, [&](const Bodies& bodies, int i) {
+    if (bodies.is_ball(i)) return;
+    const Eigen::AlignedBox3d box = box_of(solids, bodies, i, view);
+    if (box.sizes().maxCoeff() < much) shown.extend(box);
+  });
+  const double room = kRoom * shown.sizes().maxCoeff();
+  view.low = shown.min().array() - room;
+  view.high = shown.max().array() + room;
+  view.widen();
+}
+
+void find_middle_and_fastest(const Vector3d& gravity, std::span<const Frame> frames, View& view) {
+  double fastest = 0.0, count = 0.0;
+  for_each_body(frames, true, [&](const Bodies& bodies, int i) {
+    fastest = std::max(fastest, bodies.velocity[at(i)].norm());
+    view.middle += bodies.position[at(i)];
+    count += 1.0;
+  });
+  view.middle /= count;
+  const double fall = std::sqrt(2.0 * gravity.norm() * (view.high[1] - view.low[1]));
+  view.fastest_m_s = std::max(fastest, kAtRest * fall);
+  if (view.fastest_m_s == 0.0) view.fastest_m_s = 1.0;
+}
+
+// Whether a part between the eye and the middle hides the centre of a free body.
+bool hides(const std::vector<Face>& faces, const Bodies& bodies, const engine::Camera& camera) {
+  for (const auto& [patch, seamless, before] : faces) {
+    if (!before) continue;
+    for (int i = 0; i < bodies.count(); ++i) {
+      if (!bodies.is_free(i)) continue;
+      const Vector3d place = camera.place(bodies.position[at(i)]);
+      if (patch.is_before(place) && !clipped({place.head<2>()}, patch.contour).empty()) return true;
+    }
   }
+  return false;
+}
 
-  const Scene& scene_;
-  const Frame& frame_;
-  const View& view_;
-  engine::Camera camera_;
-  std::string out_;
-};
+void find_glass(std::span<const Solid> solids, std::span<const Frame> frames, View& view) {
+  const engine::Camera camera(view);
+  const SeenFaces faces(solids, camera.scale());
+  view.glass.assign(at(frames[0].bodies.count()), false);
+  for_each_body(frames, false, [&](const Bodies& bodies, int i) {
+    if (bodies.is_ball(i) || view.glass[at(i)]) return;
+    const std::vector<Face> seen =
+        faces.of(bodies.solid[at(i)], bodies.pose(i), camera, view.middle);
+    view.glass[at(i)] = hides(seen, bodies, camera);
+  });
+}
+
+std::string caption(const Scene& scene, const Placement& start, double time_s, const View& view) {
+  const bool held = std::any_of(start.planes.begin(), start.planes.end(), [&](const Plane& plane) {
+    return std::isfinite(plane.until_s) && time_s < plane.until_s;
+  });
+  return engine::caption(
+      {.title = scene.name,
+       .moment = fmt::format("t = {:.3f} s{}", time_s, held ? ", held by walls" : ""),
+       .meaning = "speed",
+       .end = fmt::format("{:.2g} m/s", view.fastest_m_s)});
+}
 
 }  // namespace
 
-Frame make_frame(const Spheres& spheres, double time_s) {
-  Frame frame{time_s, spheres.position, spheres.radius, {}, {}};
-  for (const Eigen::Vector3d& v : spheres.velocity) frame.speeds.push_back(v.norm());
-  for (const int dof : spheres.first_dof) frame.fixed.push_back(dof < 0);
-  return frame;
-}
-
-std::string draw_svg(const Scene& scene, const Frame& frame, const View& view) {
-  return Drawing(scene, frame, view).draw();
-}
-
-View fit_view(const Scene& scene, std::span<const Frame> frames) {
+View fit_view(const Scene& scene, std::span<const Solid> solids, std::span<const Frame> frames) {
   View view;
-  view.axes = engine::oblique_axes(scene.gravity_m_s2);
-  view.low.setConstant(std::numeric_limits<double>::infinity());
-  view.high = -view.low;
-  double fastest = 0.0;
-  for (const Frame& frame : frames) {
-    for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-      if (frame.fixed[i]) continue;
-      const Eigen::Vector3d at = view.axes * frame.positions[i];
-      const auto reach = Eigen::Vector3d::Constant(1.1 * frame.radii[i]);
-      view.low = view.low.cwiseMin(at - reach);
-      view.high = view.high.cwiseMax(at + reach);
-      fastest = std::max(fastest, frame.speeds[i]);
-    }
-  }
-  if (fastest > 0.0) view.fastest_m_s = fastest;
-  view.widen();
+  view.axes = scene.dimension == 2 ? engine::level_axes(scene.gravity_m_s2)
+                                   : engine::oblique_axes(scene.gravity_m_s2);
+  fit_window(solids, frames, view);
+  find_middle_and_fastest(scene.gravity_m_s2, frames, view);
+  find_glass(solids, frames, view);
   return view;
+}
+
+std::string draw_svg(const Scene& scene, const Placement& start, const Frame& frame,
+                     const View& view) {
+  const engine::Camera camera(view);
+  const BodiesDrawing bodies(start.solids, frame, view, camera);
+  return engine::svg_start(camera.height_px()) + "<defs>\n" + bodies.gradients() +
+         engine::scale_gradient() + "</defs>\n" +
+         FloorsDrawing(start, frame, view, camera).floors() + bodies.bodies() +
+         caption(scene, start, frame.time_s, view) + "</svg>\n";
 }
 
 }  // namespace conebench::dem

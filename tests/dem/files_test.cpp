@@ -14,7 +14,10 @@
 #include "problems/error.h"
 #include "problems/problem_file.h"
 #include "problems/residual.h"
-#include "tests/dem/step_solver_helper.h"
+#include "tests/dem/scene_helper.h"
+#include "tests/engine/own_folder.h"
+#include "tests/engine/small_solver.h"
+#include "tests/engine/xml.h"
 
 namespace conebench::test {
 namespace {
@@ -22,26 +25,12 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// A folder of its own for the running test, removed at the end.
-class Files : public testing::Test {
+class Files : public OwnFolder {
  protected:
-  Files() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("conebench-dem-") + info->name());
-    fs::remove_all(folder_);
-  }
-  ~Files() override { fs::remove_all(folder_); }
-
   static std::string read(const fs::path& path) {
     std::ifstream file(path);
     return {std::istreambuf_iterator<char>(file), {}};
   }
-  std::size_t count() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}));
-  }
-
-  fs::path folder_;
 };
 
 // Falls for 0.02 s, then lies on the floor with a bond; a second sphere lies beside it.
@@ -56,9 +45,10 @@ dem::Scene falling() {
 
 TEST_F(Files, ExportedProblemsReadBackWithGeometryGuessAndSolution) {
   dem::Simulation simulation(falling(), small_solver());
-  dem::Exporter exporter(folder_, engine::parse_selection("every:10"));
+  dem::Exporter exporter(folder_, engine::parse_selection("every:10"), simulation.scene());
   simulation.add_observer(std::ref(exporter));
   simulation.run(60);
+  exporter.finish();
   EXPECT_EQ(exporter.written() + exporter.without_contacts(), 6);
   EXPECT_GE(exporter.without_contacts(), 1);
   EXPECT_EQ(count(), static_cast<std::size_t>(exporter.written()));
@@ -81,26 +71,15 @@ TEST_F(Files, ExportedProblemsReadBackWithGeometryGuessAndSolution) {
   EXPECT_EQ(file.geometry->body_radii[0], 0.02);
 }
 
-TEST_F(Files, SelectionsPickTheirSteps) {
-  EXPECT_TRUE(engine::parse_selection("all").contains(17));
-  const auto range = engine::parse_selection("10..20");
-  EXPECT_FALSE(range.contains(9));
-  EXPECT_TRUE(range.contains(10) && range.contains(20));
-  EXPECT_FALSE(range.contains(21));
-  for (const char* wrong : {"every:0", "every:x", "20..10", "-1..3", "none", ""}) {
-    EXPECT_THROW(engine::parse_selection(wrong), problems::InputError) << wrong;
-  }
-}
-
 TEST_F(Files, UnwritableFolderIsAnOutputError) {
   std::ofstream(folder_) << "a file, not a folder";
-  EXPECT_THROW(dem::Exporter(folder_ / "in", {}), problems::OutputError);
-  EXPECT_THROW(dem::VtkWriter(folder_ / "in", 1e-3, 1), problems::OutputError);
+  EXPECT_THROW(dem::Exporter(folder_ / "in", {}, falling()), problems::OutputError);
+  EXPECT_THROW(dem::VtkWriter(folder_ / "in", 1e-3, {}, 1), problems::OutputError);
 }
 
 TEST_F(Files, VtkHoldsOneSeriesOfSpheresAndOneOfContacts) {
   dem::Simulation simulation(falling(), small_solver());
-  dem::VtkWriter writer(folder_, 1e-3, 20);
+  dem::VtkWriter writer(folder_, 1e-3, simulation.placement(), 20);
   simulation.add_observer(std::ref(writer));
   simulation.run(60);
   writer.finish();
@@ -116,19 +95,21 @@ TEST_F(Files, VtkHoldsOneSeriesOfSpheresAndOneOfContacts) {
 
 TEST_F(Files, PictureShowsEverySphereInsideItsWindow) {
   const dem::Scene scene = dem::load_scene("stack");
-  dem::Simulation simulation(scene, small_solver());
-  const std::vector<dem::Frame> frames{dem::make_frame(simulation.spheres(), 0.0)};
-  const dem::View view = dem::fit_view(scene, frames);
+  const dem::Placement start = dem::place_bodies(scene, "stack");
+  const dem::Frame frame{0.0, start.bodies};
+  const dem::View view = dem::fit_view(scene, start.solids, {&frame, 1});
   EXPECT_NEAR((view.axes * view.axes.transpose() - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-14);
   EXPECT_NEAR(view.axes.determinant(), 1.0, 1e-14);
-  const std::string svg = dem::draw_svg(scene, frames[0], view);
-  std::size_t circles = 0;
-  for (auto at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) {
-    ++circles;
+  const XmlElement svg = parse_xml(dem::draw_svg(scene, start, frame, view));
+  const std::vector<const XmlElement*> circles = svg.all("circle");
+  EXPECT_EQ(circles.size(), 5u);
+  const std::vector<double> box = numbers_in(svg.attribute("viewBox"));
+  for (const XmlElement* circle : circles) {
+    const double x = std::stod(circle->attribute("cx")), y = std::stod(circle->attribute("cy"));
+    const double r = std::stod(circle->attribute("r"));
+    EXPECT_TRUE(x > r && x < box[2] - r && y > r && y < box[3] - r) << x << ", " << y;
   }
-  EXPECT_EQ(circles, 5u);
-  EXPECT_THAT(svg, HasSubstr("stack"));
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.all("text").at(0)->text, "stack");
 }
 
 }  // namespace

@@ -6,7 +6,8 @@
 #include <numbers>
 
 #include "dem/simulation.h"
-#include "tests/dem/step_solver_helper.h"
+#include "tests/dem/scene_helper.h"
+#include "tests/engine/small_solver.h"
 
 namespace conebench::test {
 namespace {
@@ -34,8 +35,8 @@ TEST(Slope, SphereRollsWhenFrictionIsAboveTwoSevenths) {
   const double speed = 0.2 * 5.0 / 7.0 * kGravity * std::sin(angle);
   const Vector3d downhill(std::cos(angle), 0.0, -std::sin(angle));
   // The solver's tolerance, 1e-14 of |q| = 2 m/s a step, over 200 steps.
-  EXPECT_NEAR((simulation.spheres().velocity[0] - speed * downhill).norm(), 0.0, 1e-11);
-  EXPECT_NEAR(simulation.spheres().angular_velocity[0].y(), speed / 0.1, 1e-10);
+  EXPECT_NEAR((simulation.bodies().velocity[0] - speed * downhill).norm(), 0.0, 1e-11);
+  EXPECT_NEAR(simulation.bodies().angular_velocity[0].y(), speed / 0.1, 1e-10);
 }
 
 TEST(Slope, SphereSlidesAndSpinsUpWhenFrictionIsBelow) {
@@ -45,16 +46,16 @@ TEST(Slope, SphereSlidesAndSpinsUpWhenFrictionIsBelow) {
   simulation.run(200);
   const double normal = kGravity * std::cos(angle);
   const double speed = 0.2 * (kGravity * std::sin(angle) - friction * normal);
-  EXPECT_NEAR(simulation.spheres().velocity[0].norm(), speed, 1e-10);
-  EXPECT_NEAR(simulation.spheres().angular_velocity[0].y(), 0.2 * 2.5 * friction * normal / 0.1,
+  EXPECT_NEAR(simulation.bodies().velocity[0].norm(), speed, 1e-10);
+  EXPECT_NEAR(simulation.bodies().angular_velocity[0].y(), 0.2 * 2.5 * friction * normal / 0.1,
               1e-10);
 }
 
 TEST(Slope, SphereSlidesWithoutTurningWhenThereIsNoFriction) {
   Simulation simulation(slope(0.5, 0.0), small_solver());
   simulation.run(200);
-  EXPECT_NEAR(simulation.spheres().velocity[0].norm(), 0.2 * kGravity * std::sin(0.5), 1e-11);
-  EXPECT_EQ(simulation.spheres().angular_velocity[0], Vector3d::Zero());
+  EXPECT_NEAR(simulation.bodies().velocity[0].norm(), 0.2 * kGravity * std::sin(0.5), 1e-11);
+  EXPECT_EQ(simulation.bodies().angular_velocity[0], Vector3d::Zero());
 }
 
 // Drops a sphere on the floor; returns the speeds just before and after the first impact and the
@@ -65,10 +66,10 @@ struct Impact {
 Impact drop(Simulation& simulation) {
   Impact impact;
   while (impact.after <= 0.0) {
-    impact.before = simulation.spheres().velocity[0].z();
-    impact.height_m = simulation.spheres().position[0].z();
+    impact.before = simulation.bodies().velocity[0].z();
+    impact.height_m = simulation.bodies().position[0].z();
     simulation.step();
-    impact.after = simulation.spheres().velocity[0].z();
+    impact.after = simulation.bodies().velocity[0].z();
   }
   return impact;
 }
@@ -93,7 +94,7 @@ TEST(Bounce, ReboundHeightIsTheSchemesOwnClosedForm) {
   const Impact impact = drop(simulation);
   double highest = 0.0;
   for (int k = 0; k < 250; ++k) {
-    highest = std::max(highest, simulation.spheres().position[0].z());
+    highest = std::max(highest, simulation.bodies().position[0].z());
     simulation.step();
   }
   // With speed v after the impact, step k moves by h (v - k h g), k = 0, 1, ... while positive.
@@ -111,8 +112,8 @@ TEST(Bounce, WithoutRestitutionTheSphereRestsWithoutPenetration) {
   add_body(scene, {0.0, 0.0, 0.25}, 0.05);
   Simulation simulation(scene, small_solver());
   simulation.run(1000);
-  EXPECT_NEAR(simulation.spheres().position[0].z(), 0.05, 1e-13);
-  EXPECT_NEAR(simulation.spheres().velocity[0].norm(), 0.0, 1e-13);
+  EXPECT_NEAR(simulation.bodies().position[0].z(), 0.05, 1e-13);
+  EXPECT_NEAR(simulation.bodies().velocity[0].norm(), 0.0, 1e-13);
   EXPECT_LT(simulation.summary().deepest_overlap_m, 1e-13);
 }
 
@@ -123,7 +124,7 @@ TEST(Collision, TwoSpheresExchangeMomentumByNewtonsLaw) {
   add_body(scene, {0.1, 0.0, 0.0}, 0.03);
   Simulation simulation(scene, small_solver());
   simulation.run(100);
-  const auto& spheres = simulation.spheres();
+  const auto& spheres = simulation.bodies();
   const double m1 = spheres.mass[0], m2 = spheres.mass[1];
   EXPECT_NEAR(spheres.velocity[0].x(), (m1 - 0.6 * m2) / (m1 + m2), 1e-13);
   EXPECT_NEAR(spheres.velocity[1].x(), 1.6 * m1 / (m1 + m2), 1e-13);
@@ -135,16 +136,17 @@ TEST(Stack, StaysAndCarriesTheWeightAbove) {
   for (int i = 0; i < 5; ++i) add_body(scene, {0.0, 0.0, 0.02 * (2 * i + 1)}, 0.02);
   Simulation simulation(scene, small_solver());
   simulation.run(1000);
-  const auto& spheres = simulation.spheres();
+  const auto& spheres = simulation.bodies();
   for (int i = 0; i < 5; ++i) {
     const Vector3d start(0.0, 0.0, 0.02 * (2 * i + 1));
     EXPECT_LT((spheres.position[static_cast<std::size_t>(i)] - start).norm(), 1e-10) << i;
   }
   for (const dem::Contact& contact : simulation.contacts().contacts()) {
     // The reaction pushes `body`, the lower one of two spheres, down; the floor pushes up.
-    const int above = contact.with_plane() ? 5 : 4 - contact.body;
+    const int above = simulation.bodies().is_plane(contact.other) ? 5 : 4 - contact.body;
     EXPECT_NEAR(contact.reaction.norm() / scene.step_s, above * spheres.mass[0] * kGravity, 1e-9);
-    EXPECT_GT(contact.reaction.z() * (contact.with_plane() ? 1.0 : -1.0), 0.0);
+    EXPECT_GT(contact.reaction.z() * (simulation.bodies().is_plane(contact.other) ? 1.0 : -1.0),
+              0.0);
   }
 }
 
@@ -165,16 +167,20 @@ Simulation hanging(double strength, bool from_sphere) {
   return Simulation(scene, small_solver());
 }
 
+Vector3d hanging_ball(const Simulation& simulation) {
+  return simulation.bodies().position[static_cast<std::size_t>(simulation.bodies().count()) - 1];
+}
+
 TEST(Cohesion, BondHoldsToExactlyItsForce) {
   for (const bool from_sphere : {false, true}) {
     Simulation holds = hanging(1.0 + 1e-9, from_sphere);
     holds.run(2000);
-    EXPECT_NEAR(holds.spheres().position.back().z(), -0.02, 1e-12);
+    EXPECT_NEAR(hanging_ball(holds).z(), -0.02, 1e-12);
     EXPECT_EQ(holds.summary().last_bonds, 1);
     // Overloaded by 1e-6 of g it opens by 1e-6 m in 0.45 s, breaks, and falls freely.
     Simulation falls = hanging(1.0 - 1e-6, from_sphere);
     falls.run(2000);
-    EXPECT_LT(falls.spheres().position.back().z(), -5.0);
+    EXPECT_LT(hanging_ball(falls).z(), -5.0);
     EXPECT_EQ(falls.summary().last_bonds, 0);
   }
 }
@@ -187,7 +193,7 @@ TEST(Cohesion, GrainsDoNotAttractAtADistance) {
   add_body(scene, {0.0405, 0.0, 0.0}, 0.02);
   Simulation simulation(scene, small_solver());
   simulation.run(50);
-  EXPECT_EQ(simulation.spheres().velocity[0], Vector3d::Zero());
+  EXPECT_EQ(simulation.bodies().velocity[0], Vector3d::Zero());
   EXPECT_EQ(simulation.summary().last_bonds, 0);
 }
 
@@ -204,7 +210,7 @@ TEST(Cohesion, BrokenBondFormsAgainOnContact) {
   EXPECT_EQ(simulation.summary().last_bonds, 0);
   simulation.run(100);
   EXPECT_EQ(simulation.summary().last_bonds, 1);
-  EXPECT_NEAR(simulation.spheres().velocity[0].norm(), 0.0, 1e-12);
+  EXPECT_NEAR(simulation.bodies().velocity[0].norm(), 0.0, 1e-12);
 }
 
 }  // namespace

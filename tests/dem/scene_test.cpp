@@ -7,6 +7,7 @@
 
 #include "dem/placement.h"
 #include "problems/error.h"
+#include "tests/engine/scene_text.h"
 
 namespace conebench::test {
 namespace {
@@ -44,22 +45,12 @@ radius_m = 0.1
 material = "glass"
 )";
 
-// kScene with the first `from` replaced by `to`.
 std::string changed(const std::string& from, const std::string& to) {
-  std::string text = kScene;
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
+  return test::changed(kScene, from, to);
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    dem::parse_scene(text, "two.toml");
-  } catch (const problems::InputError& error) {
-    EXPECT_EQ(error.subject(), "two.toml");
-    return error.what();
-  }
-  return "no error";
+  return input_error("two.toml", [&] { dem::parse_scene(text, "two.toml"); });
 }
 
 TEST(Scene, ReadsWhatIsWrittenAndFillsInDefaults) {
@@ -170,7 +161,7 @@ TEST(Scene, OverlapsNameThePairUnlessTheyAreResolved) {
   std::string text = changed("[0, 0, 0.8]", "[0, 0.05, 0.5]");
   text.insert(text.find("skin_m"), "resolve = true\n");
   const dem::Scene scene = dem::parse_scene(text, "two.toml");
-  const dem::Spheres spheres = dem::place_spheres(scene, "two");
+  const dem::Bodies spheres = dem::place_bodies(scene, "two").bodies;
   EXPECT_GE((spheres.position[0] - spheres.position[1]).norm(), 0.2 * (1.0 - 1e-6));
 }
 
@@ -182,7 +173,7 @@ TEST(Scene, FixedBodiesCannotMove) {
 TEST(Scene, BedsAreHeldInPlace) {
   const std::string bed = "[[beds]]\nwidth_m = 0.5\nradius_m = 0.1\nmaterial = \"glass\"\n";
   const dem::Scene scene = dem::parse_scene(kScene + bed, "bed");
-  const dem::Spheres spheres = dem::place_spheres(scene, "bed");
+  const dem::Bodies spheres = dem::place_bodies(scene, "bed").bodies;
   ASSERT_EQ(spheres.count(), 2 + 9);
   EXPECT_EQ(spheres.dofs, 12);
   EXPECT_LT((spheres.position[2] - Eigen::Vector3d(-0.2, -0.2, 0.0)).norm(), 1e-15);
@@ -196,9 +187,9 @@ TEST(Scene, ColumnsFillTheirSection) {
       "[[columns]]\nsection = \"cylinder\"\nwidth_m = 0.1\nheight_m = 0.1\n"
       "radius_range_m = [0.005, 0.01]\nmaterial = \"glass\"\n";
   const dem::Scene scene = dem::parse_scene(text, "column");
-  const dem::Spheres spheres = dem::place_spheres(scene, "column");
+  const dem::Bodies spheres = dem::place_bodies(scene, "column").bodies;
   EXPECT_EQ(spheres.count(), 5 * 13);
-  for (std::size_t i = 0; i < spheres.position.size(); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(spheres.count()); ++i) {
     EXPECT_LE(spheres.position[i].head<2>().norm() + spheres.radius[i], 0.05 + 1e-3);
     EXPECT_GE(spheres.position[i].z(), spheres.radius[i] * (1.0 - 1e-12));
   }

@@ -6,7 +6,8 @@
 
 #include "dem/export.h"
 #include "problems/residual.h"
-#include "tests/dem/step_solver_helper.h"
+#include "tests/dem/scene_helper.h"
+#include "tests/engine/small_solver.h"
 
 namespace conebench::test {
 namespace {
@@ -29,7 +30,7 @@ dem::Scene cloud(const dem::PairLaw& law) {
   return scene;
 }
 
-Vector3d momentum(const dem::Spheres& spheres) {
+Vector3d momentum(const dem::Bodies& spheres) {
   Vector3d sum = Vector3d::Zero();
   for (std::size_t i = 0; i < spheres.mass.size(); ++i) {
     sum += spheres.mass[i] * spheres.velocity[i];
@@ -42,10 +43,10 @@ TEST(Conservation, MomentumIsKeptInFlightAndCollisions) {
     dem::Scene scene = cloud({.friction = 0.4, .restitution = e});
     scene.gravity_m_s2.setZero();
     Simulation simulation(scene, small_solver(1e-6));
-    const Vector3d start = momentum(simulation.spheres());
+    const Vector3d start = momentum(simulation.bodies());
     simulation.run(150);
     ASSERT_GT(simulation.summary().iterations, 0) << "nothing collided";
-    EXPECT_LT((momentum(simulation.spheres()) - start).norm(), 1e-14 * start.norm() * 150);
+    EXPECT_LT((momentum(simulation.bodies()) - start).norm(), 1e-14 * start.norm() * 150);
   }
 }
 
@@ -85,11 +86,11 @@ TEST(Step, ProblemStatesTheLawOfTheContacts) {
     EXPECT_EQ(problem.metadata().name, "small_000000");
     // u_n_minus = -1 closes; a_n = e u_n_minus = -0.5; so the sphere leaves at 0.5 m/s.
     EXPECT_DOUBLE_EQ(problem.w()[0], -0.5);
-    EXPECT_NEAR(view.spheres->velocity[0].z(), 0.5, 1e-13);
+    EXPECT_NEAR(view.bodies->velocity[0].z(), 0.5, 1e-13);
     // The floor brakes the lowest point, so the reaction points to -x, at the limit of friction.
     const Vector3d reaction = view.contacts->contacts()[0].reaction;
     EXPECT_GT(reaction.z(), 0.0);
-    EXPECT_NEAR(view.spheres->velocity[0].x(), reaction.x() / view.spheres->mass[0], 1e-15);
+    EXPECT_NEAR(view.bodies->velocity[0].x(), reaction.x() / view.bodies->mass[0], 1e-15);
     EXPECT_LT(reaction.x(), 0.0);
     EXPECT_LT(problems::evaluate_eta(*view.standard, view.answer->r), 1e-12);
   });
@@ -109,7 +110,7 @@ TEST(Step, RateOfTheProblemIsTheRelativeVelocityOfTheContact) {
       const int start = view.problem->start(static_cast<int>(i));
       const Vector3d rate = u.segment<3>(start) - view.problem->w().segment<3>(start);
       const Vector3d expected =
-          contact.frame.transpose() * dem::relative_velocity(*view.spheres, contact);
+          dem::frame_of(contact, 3).transpose() * dem::relative_velocity(*view.bodies, contact);
       EXPECT_LT((rate - expected).norm(), 1e-12);
     }
   });
@@ -124,7 +125,7 @@ TEST(Step, CohesionReachesTheProblemAsKappa) {
   Simulation simulation(scene, small_solver());
   simulation.add_observer([&](const dem::StepView& view) {
     EXPECT_DOUBLE_EQ(view.problem->cones()[0].kappa, 3.0 * scene.step_s);
-    const double weight = view.spheres->mass[0] * 9.81 * scene.step_s;
+    const double weight = view.bodies->mass[0] * 9.81 * scene.step_s;
     EXPECT_NEAR(view.contacts->contacts()[0].reaction.z(), weight, 1e-15);
     EXPECT_NEAR(view.answer->r[0], weight + 3.0 * scene.step_s, 1e-15);
   });
@@ -171,7 +172,7 @@ TEST(Step, WarmStartFollowsTheContactsFrame) {
         return contact.body == now.body && contact.other == now.other;
       });
       Vector3d expected = Vector3d::Zero();
-      if (old != last.end()) expected = now.frame.transpose() * old->reaction;
+      if (old != last.end()) expected = dem::frame_of(now, 3).transpose() * old->reaction;
       expected[0] += view.problem->cones()[i].kappa;
       const Vector3d guess = view.guess->segment<3>(view.problem->start(static_cast<int>(i)));
       EXPECT_LT((guess - expected).norm(), 1e-15);
@@ -188,9 +189,9 @@ TEST(Step, PlanesGoAtTheirTime) {
   add_body(scene, {0.0, 0.0, 0.02}, 0.02);
   Simulation simulation(scene, small_solver());
   simulation.run(100);
-  EXPECT_NEAR(simulation.spheres().position[0].z(), 0.02, 1e-13);
+  EXPECT_NEAR(simulation.bodies().position[0].z(), 0.02, 1e-13);
   simulation.run(200);
-  EXPECT_NEAR(simulation.spheres().velocity[0].z(), -0.981, 1e-10);
+  EXPECT_NEAR(simulation.bodies().velocity[0].z(), -0.981, 1e-10);
 }
 
 TEST(Step, SameSeedSameMotionOtherSeedOtherMotion) {
@@ -200,7 +201,7 @@ TEST(Step, SameSeedSameMotionOtherSeedOtherMotion) {
     scene.seed = seed;
     Simulation simulation(scene, small_solver(1e-6));
     simulation.run(120);
-    return simulation.spheres().position;
+    return simulation.bodies().position;
   };
   EXPECT_EQ(final_positions(7), final_positions(7));
   EXPECT_NE(final_positions(7), final_positions(8));

@@ -1,0 +1,36 @@
+#include "dem/solid.h"
+
+namespace conebench::dem {
+namespace {
+
+double size_of(const Shape& shape) {
+  Eigen::AlignedBox3d box;
+  for (const Part& part : shape.parts) {
+    const Bounds bounds = bounds_of(part.piece, part.pose);
+    box.extend(bounds.low);
+    box.extend(bounds.high);
+  }
+  return 0.5 * box.sizes().maxCoeff();
+}
+
+}  // namespace
+
+Solid make_solid(const Shape& shape, std::vector<Piece>& pieces) {
+  Solid solid;
+  if (!shape.has_mesh()) {
+    const MassProperties mass = mass_properties(shape);
+    const PrincipalAxes principal = principal_axes(mass.inertia_m5);
+    solid.from_shape = Pose{mass.centre_m, Eigen::Quaterniond(principal.axes)}.inverse();
+    solid.volume_m3 = mass.volume_m3;
+    solid.moments_m5 = principal.moments;
+  }
+  for (const Part& part : shape.parts) {
+    solid.parts.push_back({part.piece, solid.from_shape * part.pose});
+    solid.pieces.push_back(static_cast<int>(pieces.size()));
+    pieces.push_back(part.piece);
+  }
+  solid.size_m = size_of(shape);
+  return solid;
+}
+
+}  // namespace conebench::dem
