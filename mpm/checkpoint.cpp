@@ -1,33 +1,17 @@
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "mpm/simulation.h"
-#include "problems/atomic_file.h"
-#include "problems/error.h"
+#include "problems/engine/checkpoint.h"
 
 namespace conebench::mpm {
 namespace {
 
+using engine::bytes_of;
+using engine::read_bytes;
 using nlohmann::json;
 
-constexpr std::string_view kFormat = "conebench-mpm-checkpoint";
-constexpr int kVersion = 1;
-
-// The bytes of an array, so that every bit comes back.
-template <class T>
-json bytes_of(const std::vector<T>& values) {
-  const auto* first = reinterpret_cast<const std::uint8_t*>(values.data());
-  return json::binary(std::vector<std::uint8_t>(first, first + values.size() * sizeof(T)));
-}
-
-template <class T>
-void read_bytes(const json& from, std::size_t count, std::vector<T>& values) {
-  const auto& bytes = from.get_binary();
-  if (bytes.size() != count * sizeof(T)) throw std::length_error("an array of another length");
-  values.resize(count);
-  std::copy(bytes.begin(), bytes.end(), reinterpret_cast<std::uint8_t*>(values.data()));
+engine::CheckpointKind kind_of(const Scene& scene) {
+  return {"conebench-mpm-checkpoint", 1, to_toml(scene), scene.name};
 }
 
 // Calls f(name, array) for every array of the particles.
@@ -95,21 +79,10 @@ void check_places(const Grid& grid, const Particles& particles, const std::vecto
   }
 }
 
-std::vector<std::uint8_t> read_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  problems::require(file && !std::filesystem::is_directory(path), path.string(),
-                    "cannot be read, expected a checkpoint");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 void Simulation::save(const std::filesystem::path& path) const {
-  json out = {{"format", kFormat},
-              {"version", kVersion},
-              {"scene", to_toml(scene_)},
-              {"time_s", time_s_},
-              {"count", particles_.count()}};
+  json out = {{"time_s", time_s_}, {"count", particles_.count()}};
   for_each_array(particles_, [&](const char* name, const auto& values) {
     out["particles"][name] = bytes_of(values);
   });
@@ -119,18 +92,11 @@ void Simulation::save(const std::filesystem::path& path) const {
   out["bodies"] = bytes_of(body_numbers(bodies_));
   for_each_total(summary_,
                  [&](const char* name, const auto& value) { out["totals"][name] = value; });
-  const std::vector<std::uint8_t> bytes = json::to_cbor(out);
-  problems::write_file_atomically(path, std::as_bytes(std::span(bytes)));
+  engine::write_checkpoint(path, kind_of(scene_), std::move(out));
 }
 
 void Simulation::restart(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> bytes = read_file(path);
-  try {
-    const json in = json::from_cbor(bytes);
-    problems::require(in.at("format") == kFormat && in.at("version") == kVersion, path.string(),
-                      "not a checkpoint of this version, expected ", kFormat, " ", kVersion);
-    problems::require(in.at("scene") == to_toml(scene_), path.string(),
-                      "is of another scene, or of other settings, than ", scene_.name);
+  engine::read_checkpoint(path, kind_of(scene_), [this](const json& in) {
     Particles particles;
     for_each_array(particles, [&](const char* name, auto& values) {
       read_bytes(in.at("particles").at(name), in.at("count"), values);
@@ -153,12 +119,7 @@ void Simulation::restart(const std::filesystem::path& path) {
     last_stress_ = std::move(stress);
     last_states_ = std::move(states);
     set_bodies(numbers, bodies_);
-  } catch (const problems::InputError&) {
-    throw;
-  } catch (const std::exception& error) {
-    throw problems::InputError(path.string(),
-                               std::string("not a whole checkpoint: ") + error.what());
-  }
+  });
 }
 
 }  // namespace conebench::mpm

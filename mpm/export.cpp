@@ -1,11 +1,5 @@
 #include "mpm/export.h"
 
-#include <fmt/format.h>
-
-#include "problems/engine/text_file.h"
-#include "problems/problem_file.h"
-#include "problems/residual.h"
-
 namespace conebench::mpm {
 namespace {
 
@@ -59,22 +53,11 @@ Geometry geometry_of(const StepView& view) {
   return geometry;
 }
 
-problems::Solution solution_of(const StepView& view) {
-  const Eigen::VectorXd& r = view.answer->r;
-  return {r, view.standard->rate(r), view.standard->velocity(r),
-          problems::evaluate_eta(*view.standard, r)};
-}
-
 }  // namespace
 
 problems::Problem make_problem(const Scene& scene, std::int64_t step, double h,
                                Assembly& assembly) {
-  problems::Metadata metadata;
-  metadata.name = fmt::format("{}_{:06}", scene.name, step);
-  metadata.engine = "mpm";
-  metadata.scene = scene.name;
-  metadata.step = step;
-  metadata.step_size_s = h;
+  problems::Metadata metadata = engine::step_metadata(scene, "mpm", step, h);
   metadata.force_unit = "Pa s";
   metadata.rate_unit = "m3/s";
   return problems::Problem(std::move(assembly.data), assembly.cones, std::move(metadata));
@@ -93,23 +76,8 @@ problems::Problem with_states(const problems::Problem& base, const CohesionLaw& 
   return base.with_laws(std::move(cones), std::move(w));
 }
 
-Exporter::Exporter(std::filesystem::path folder, engine::StepSelection selection)
-    : folder_(std::move(folder)), selection_(selection) {
-  engine::make_folder(folder_);
-}
-
 void Exporter::operator()(const StepView& view) {
-  if (!selection_.contains(view.step)) return;
-  if (!view.problem) {
-    ++without_cones_;
-    return;
-  }
-  problems::Metadata metadata = view.problem->metadata();
-  metadata.sampling_weight = static_cast<double>(selection_.stride);
-  const auto path = folder_ / (metadata.name + ".h5");
-  problems::write_problem_file(path, {view.problem->with_metadata(std::move(metadata)),
-                                      geometry_of(view), *view.guess, solution_of(view)});
-  ++written_;
+  write_if_selected(view, [&view] { return geometry_of(view); });
 }
 
 }  // namespace conebench::mpm

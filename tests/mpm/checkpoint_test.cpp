@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "problems/error.h"
+#include "tests/engine/own_folder.h"
+#include "tests/engine/small_solver.h"
 #include "tests/mpm/engine_helper.h"
 
 namespace conebench::test {
@@ -45,16 +47,9 @@ mpm::Scene busy() {
 // Few sweeps, so that what the solver starts from shows in the result.
 engine::StepSolver sloppy() { return small_solver(1e-4); }
 
-class Checkpoint : public testing::Test {
+class Checkpoint : public OwnFolder {
  protected:
-  Checkpoint() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("conebench-mpm-") + info->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-    path_ = folder_ / "run.checkpoint";
-  }
-  ~Checkpoint() override { fs::remove_all(folder_); }
+  Checkpoint() : path_(folder_ / "run.checkpoint") { fs::create_directories(folder_); }
 
   // What restarting from path_ complains of, or "no error".
   std::string error_of_restart(const mpm::Scene& scene) const {
@@ -70,7 +65,7 @@ class Checkpoint : public testing::Test {
     return "no error";
   }
 
-  fs::path folder_, path_;
+  fs::path path_;
 };
 
 void expect_same(const Simulation& a, const Simulation& b) {

@@ -1,40 +1,11 @@
 #include "tests/mpm/engine_helper.h"
 
-#include <Eigen/Dense>
-#include <algorithm>
 #include <stdexcept>
 
 #include "mpm/placement.h"
 #include "solvers/registry.h"
 
 namespace conebench::test {
-namespace {
-
-constexpr int kMostSweeps = 20'000;
-
-// One cone's reaction in place; returns the largest change as a rate.
-double relax(const Eigen::MatrixXd& W, const Eigen::VectorXd& q, int start,
-             const problems::Cone& cone, Eigen::VectorXd& r) {
-  const int tangents = cone.dim - 1;
-  double change = 0.0, normal = r[start];
-  if (W(start, start) > 0.0) {
-    const double u_n = W.row(start).dot(r) + q[start];
-    normal = std::max(0.0, r[start] - u_n / W(start, start));
-    change = W(start, start) * std::abs(normal - r[start]);
-    r[start] = normal;
-  }
-  if (tangents == 0) return change;
-  const double mobility = W.block(start + 1, start + 1, tangents, tangents).trace();
-  if (!(mobility > 0.0)) return change;
-  const Eigen::VectorXd before = r.segment(start + 1, tangents);
-  Eigen::VectorXd t =
-      before - (W.middleRows(start + 1, tangents) * r + q.segment(start + 1, tangents)) / mobility;
-  if (const double size = t.norm(); size > cone.mu * normal) t *= cone.mu * normal / size;
-  r.segment(start + 1, tangents) = t;
-  return std::max(change, mobility * (t - before).norm());
-}
-
-}  // namespace
 
 engine::StepSolver step_solver(const std::string& variant, double tol) {
   const solvers::Stop stop{.tol = tol, .max_iterations = 100'000};
@@ -48,25 +19,8 @@ engine::StepSolver step_solver(const std::string& variant, double tol) {
   };
 }
 
-engine::StepSolver small_solver(double tol) {
-  return [tol](const problems::Problem& standard, const Eigen::VectorXd& guess) {
-    const Eigen::MatrixXd W(standard.delassus());
-    const Eigen::VectorXd& q = standard.q();
-    engine::StepAnswer answer;
-    answer.r = guess;
-    const double allowed = tol * std::max(q.cwiseAbs().maxCoeff(), 1e-300);
-    while (answer.iterations < kMostSweeps && !answer.converged) {
-      double change = 0.0;
-      for (int i = 0; i < standard.cone_count(); ++i) {
-        const auto& cone = standard.cones()[static_cast<std::size_t>(i)];
-        change = std::max(change, relax(W, q, standard.start(i), cone, answer.r));
-      }
-      ++answer.iterations;
-      answer.converged = change <= allowed;
-    }
-    answer.status = answer.converged ? "converged" : "iteration_limit";
-    return answer;
-  };
+std::string dimension_name(const testing::TestParamInfo<int>& dimension) {
+  return std::to_string(dimension.param) + "D";
 }
 
 mpm::Scene open_scene(const std::vector<int>& cells) {
@@ -79,7 +33,7 @@ mpm::Scene open_scene(const std::vector<int>& cells) {
     scene.grid.cells[a] = cells[static_cast<std::size_t>(a)];
     scene.grid.size_m[a] = 0.1 * scene.grid.cells[a];
   }
-  scene.gravity_m_s2 = -9.81 * Eigen::Vector3d::Unit(scene.grid.dim - 1);
+  scene.gravity_m_s2 = -kGravity * Eigen::Vector3d::Unit(scene.grid.dim - 1);
   scene.material.density_kg_m3 = 1500.0;
   scene.material.phi_max = 0.6;
   scene.material.friction = 0.4;
@@ -103,6 +57,15 @@ mpm::Block& add_block(mpm::Scene& scene, const Eigen::Vector3d& low, const Eigen
   block.fraction = scene.material.phi_max;
   scene.blocks.push_back(block);
   return scene.blocks.back();
+}
+
+mpm::Scene thrown(int dim) {
+  mpm::Scene scene = open_scene(dim == 2 ? std::vector{10, 10} : std::vector{7, 7, 7});
+  mpm::Block& block =
+      add_block(scene, Eigen::Vector3d::Constant(2.3), Eigen::Vector3d::Constant(4.6));
+  block.velocity_m_s = flat(dim, {0.7, 0.4, 1.1});
+  block.jitter = 0.5;
+  return scene;
 }
 
 Eigen::Vector3d flat(int dim, Eigen::Vector3d x) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
@@ -11,11 +13,10 @@ namespace conebench::test {
 /// A solver of solvers/, by its variant name, as the engine takes it.
 engine::StepSolver step_solver(const std::string& variant, double tol);
 
-/// A step solver that shares no code with solvers/: Gauss-Seidel on the dense W, for each cone the
-/// normal reaction first, then the tangential one projected on the ball of radius mu r_n (no De
-/// Saxce shift, no cone projection, own stopping test). For problems of a few cells.
-/// `tol` is on the largest change of a sweep, as a rate, relative to max |q|.
-engine::StepSolver small_solver(double tol = 1e-14);
+/// "2D" or "3D", for suites with the dimension as parameter.
+std::string dimension_name(const testing::TestParamInfo<int>& dimension);
+
+inline constexpr double kGravity = 9.81;  ///< of the scenes below [m/s2]
 
 /// An empty grid of cells of 0.1 m, as many dimensions as `cells` has entries, between free walls:
 /// sand of density 1500, mu = 0.4, phi_max = 0.6, no cohesion; gravity down, step 2e-3 s.
@@ -26,6 +27,9 @@ mpm::Scene box_scene(const std::vector<int>& cells);
 
 /// Adds a block of densest sand, in cells, and returns it for further settings.
 mpm::Block& add_block(mpm::Scene& scene, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
+
+/// A block in the air of an open scene, thrown so that it crosses cells askew.
+mpm::Scene thrown(int dim);
 
 /// The vector, its third entry 0 in two dimensions.
 Eigen::Vector3d flat(int dim, Eigen::Vector3d x);

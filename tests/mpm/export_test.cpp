@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <filesystem>
-#include <iterator>
 
 #include "problems/error.h"
 #include "problems/problem_file.h"
 #include "problems/residual.h"
+#include "tests/engine/own_folder.h"
 #include "tests/mpm/engine_helper.h"
 
 namespace conebench::test {
@@ -19,24 +18,7 @@ namespace fs = std::filesystem;
 using mpm::NodeState;
 using mpm::Simulation;
 
-class Export : public testing::Test {
- protected:
-  Export() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    std::string name = std::string("conebench-mpm-") + info->name();
-    std::replace(name.begin(), name.end(), '/', '-');
-    folder_ = fs::temp_directory_path() / name;
-    fs::remove_all(folder_);
-  }
-  ~Export() override { fs::remove_all(folder_); }
-
-  std::size_t count() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(folder_), fs::directory_iterator{}));
-  }
-
-  fs::path folder_;
-};
+class Export : public OwnFolder {};
 
 // A cohesive block beside a wall of friction, its top off the grid, and a ball on it.
 mpm::Scene cohesive(int dim) {
@@ -87,19 +69,19 @@ Solved remember(const mpm::StepView& view) {
 }
 
 class ExportIn : public Export, public testing::WithParamInterface<int> {};
-INSTANTIATE_TEST_SUITE_P(Dimensions, ExportIn, testing::Values(2, 3), [](const auto& dimension) {
-  return std::to_string(dimension.param) + "D";
-});
+INSTANTIATE_TEST_SUITE_P(Dimensions, ExportIn, testing::Values(2, 3), dimension_name);
 
 TEST_P(ExportIn, ProblemsReadBackAsTheyWereSolved) {
   Simulation simulation(cohesive(GetParam()), step_solver("auto", 1e-6));
-  Solved solved;
-  simulation.add_observer([&](const mpm::StepView& view) { solved = remember(view); });
-  mpm::Exporter exporter(folder_, engine::parse_selection("all"));
+  std::vector<Solved> steps;
+  simulation.add_observer([&](const mpm::StepView& view) { steps.push_back(remember(view)); });
+  mpm::Exporter exporter(folder_, engine::parse_selection("all"), simulation.scene());
   simulation.add_observer(std::ref(exporter));
+  run(simulation, 8);
+  exporter.finish();
   int cohesive_steps = 0;
-  for (int step = 0; step < 8; ++step) {
-    simulation.step();
+  for (std::size_t step = 0; step < 8; ++step) {
+    const Solved& solved = steps[step];
     const auto path = folder_ / ("heap_00000" + std::to_string(step) + ".h5");
     ASSERT_TRUE(fs::exists(path));
     const auto file = problems::read_problem_file(path);
@@ -126,9 +108,10 @@ TEST_P(ExportIn, FilesSayWhereTheNodesAreAndWhatTheyDo) {
   Simulation simulation(cohesive(GetParam()), step_solver("auto", 1e-6));
   Solved solved;
   simulation.add_observer([&](const mpm::StepView& view) { solved = remember(view); });
-  mpm::Exporter exporter(folder_, engine::parse_selection("all"));
+  mpm::Exporter exporter(folder_, engine::parse_selection("all"), simulation.scene());
   simulation.add_observer(std::ref(exporter));
   run(simulation, 8);
+  exporter.finish();
   const auto file = problems::read_problem_file(folder_ / "heap_000007.h5");
   ASSERT_TRUE(file.geometry);
   const problems::Geometry& geometry = *file.geometry;
@@ -160,9 +143,10 @@ TEST_P(ExportIn, FilesSayWhereTheNodesAreAndWhatTheyDo) {
 
 TEST_F(Export, FilesSayWhatTheyAre) {
   Simulation simulation(cohesive(2), step_solver("auto", 1e-6));
-  mpm::Exporter exporter(folder_, engine::parse_selection("every:3"));
+  mpm::Exporter exporter(folder_, engine::parse_selection("every:3"), simulation.scene());
   simulation.add_observer(std::ref(exporter));
   run(simulation, 7);
+  exporter.finish();
   EXPECT_EQ(exporter.written(), 3);
   EXPECT_EQ(count(), 3u);
   const auto file = problems::read_problem_file(folder_ / "heap_000003.h5");
@@ -181,9 +165,10 @@ TEST_F(Export, FilesSayWhatTheyAre) {
 TEST_P(ExportIn, ConesAreThoseOfTheMaterial) {
   const int dim = GetParam();
   Simulation simulation(cohesive(dim), step_solver("auto", 1e-6));
-  mpm::Exporter exporter(folder_, engine::parse_selection("0..0"));
+  mpm::Exporter exporter(folder_, engine::parse_selection("0..0"), simulation.scene());
   simulation.add_observer(std::ref(exporter));
   simulation.step();
+  exporter.finish();
   const auto file = problems::read_problem_file(folder_ / "heap_000000.h5");
   int cohesive_cones = 0;
   for (const problems::Cone& cone : file.problem.cones()) {
@@ -202,9 +187,10 @@ TEST_F(Export, StepsWithoutSandAreCountedNotWritten) {
   scene.gravity_m_s2.setZero();
   add_block(scene, {2.0, 1.0, 0.0}, {3.0, 2.0, 0.0}).velocity_m_s = {50.0, 0.0, 0.0};
   Simulation simulation(scene, step_solver("auto", 1e-6));
-  mpm::Exporter exporter(folder_, engine::parse_selection("all"));
+  mpm::Exporter exporter(folder_, engine::parse_selection("all"), simulation.scene());
   simulation.add_observer(std::ref(exporter));
   run(simulation, 10);
+  exporter.finish();
   EXPECT_EQ(simulation.particles().count(), 0u);
   EXPECT_GT(exporter.written(), 0);
   EXPECT_GT(exporter.without_cones(), 0);
@@ -214,7 +200,7 @@ TEST_F(Export, StepsWithoutSandAreCountedNotWritten) {
 
 TEST_F(Export, UnwritableFolderIsAnOutputError) {
   fs::create_directories(folder_);
-  EXPECT_THROW(mpm::Exporter("/dev/null/folder", {}), problems::OutputError);
+  EXPECT_THROW(mpm::Exporter("/dev/null/folder", {}, cohesive(2)), problems::OutputError);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "problems/error.h"
 #include "tests/mpm/scene_texts.h"
 
 namespace conebench::test {

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <string>
 
 #include "mpm/scene.h"
-#include "problems/error.h"
+#include "tests/engine/scene_text.h"
 
 namespace conebench::test {
 
@@ -128,22 +126,9 @@ angular_velocity_rad_s = [0, 0, 0]
 friction = 0.5
 )";
 
-/// `text` with the first `from` replaced by `to`.
-inline std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return text.replace(at, from.size(), to);
-}
-
 /// What parsing `text` complains of, or "no error".
 inline std::string error_of(const std::string& text) {
-  try {
-    mpm::parse_scene(text, "heap.toml");
-  } catch (const problems::InputError& error) {
-    EXPECT_EQ(error.subject(), "heap.toml");
-    return error.what();
-  }
-  return "no error";
+  return input_error("heap.toml", [&] { mpm::parse_scene(text, "heap.toml"); });
 }
 
 }  // namespace conebench::test

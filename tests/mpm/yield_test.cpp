@@ -9,6 +9,7 @@
 
 #include <Eigen/Dense>
 
+#include "tests/engine/small_solver.h"
 #include "tests/mpm/engine_helper.h"
 
 namespace conebench::test {
