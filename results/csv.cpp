@@ -29,22 +29,30 @@ std::string joined(const std::vector<std::string>& notes) {
 
 std::string csv_report(std::span<const Record> records) {
   std::string csv =
-      "problem,content_sha256,path,family,cones,solver,kind,tol,time_limit_s,memory_limit_bytes,"
-      "stop,repetition,status,claimed,eta,fclib_residual,siconos_residual,attainable_eta,"
-      "iterations,time_to_1e-4_s,time_to_1e-6_s,time_to_tol_s,setup_s,solve_s,wall_s,cpu_s,"
-      "peak_memory_bytes,started_at,notes,error\n";
+      "problem,content_sha256,path,family,cones,solver,solver_build,kind,tol,time_limit_s,"
+      "memory_limit_bytes,stop,mode,threads,repetition,sequence,sequence_index,donor,status,"
+      "claimed,"
+      "eta,fclib_residual,siconos_residual,attainable_eta,guess_eta,model_eta,iterations,time_to_"
+      "1e-4_s,"
+      "time_to_1e-6_s,time_to_tol_s,setup_s,solve_s,timed_solves,time_spread,solver_cpu_s,"
+      "allocations,solver_memory_bytes,wall_s,cpu_s,peak_memory_bytes,started_at,notes,error\n";
   for (const Record& r : records) {
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},", quoted(r.problem.name),
-                       r.problem.content_sha256, quoted(r.problem.path), quoted(r.problem.family),
-                       r.problem.cones, quoted(r.solver), r.kind, r.settings.tol,
-                       number(r.settings.time_limit_s), r.settings.memory_limit_bytes,
-                       r.settings.stop, r.repetition, to_string(r.status), r.claimed);
-    csv += fmt::format("{},{},{},{},{},{},{},{},", number(r.eta), number(r.fclib_residual),
-                       number(r.siconos_residual), number(r.attainable_eta), r.iterations,
-                       number(time_to_tolerance(r, 1e-4)), number(time_to_tolerance(r, 1e-6)),
-                       number(time_to_tolerance(r, r.settings.tol)));
-    csv += fmt::format("{},{},{},{},{},{},{},{}\n", r.setup_s, r.solve_s, r.wall_s, r.cpu_s,
-                       r.peak_memory_bytes, r.started_at, quoted(joined(r.notes)), quoted(r.error));
+    const Settings& s = r.settings;
+    csv += fmt::format("{},{},{},{},{},{},{},{},", quoted(r.problem.name), r.problem.content_sha256,
+                       quoted(r.problem.path), quoted(r.problem.family), r.problem.cones,
+                       quoted(r.solver), r.solver_build, r.kind);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},", s.tol, number(s.time_limit_s),
+                       s.memory_limit_bytes, s.stop, s.mode, s.threads, r.repetition,
+                       quoted(r.sequence.name), r.sequence.index, quoted(r.donor),
+                       to_string(r.status), r.claimed);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},", number(r.eta), number(r.fclib_residual),
+                       number(r.siconos_residual), number(r.attainable_eta), number(r.guess_eta),
+                       number(r.model_eta), r.iterations, number(time_to_tolerance(r, 1e-4)),
+                       number(time_to_tolerance(r, 1e-6)), number(time_to_tolerance(r, s.tol)));
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\n", r.setup_s, r.solve_s,
+                       r.timed_solves, number(r.time_spread), r.solver_cpu_s, r.allocations,
+                       r.solver_memory_bytes, r.wall_s, r.cpu_s, r.peak_memory_bytes, r.started_at,
+                       quoted(joined(r.notes)), quoted(r.error));
   }
   return csv;
 }

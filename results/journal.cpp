@@ -1,11 +1,12 @@
 #include "results/journal.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -13,6 +14,7 @@
 #include <unordered_map>
 
 #include "problems/error.h"
+#include "results/merge.h"
 #include "results/output.h"
 
 namespace conebench::results {
@@ -40,36 +42,63 @@ bool lock(int fd) {
   return false;
 }
 
-}  // namespace
-
-std::filesystem::path journal_path(const std::filesystem::path& results_dir) {
-  return results_dir / "journal.jsonl";
-}
-
-JournalContent read_journal(const std::filesystem::path& path) {
-  JournalContent content;
-  if (!std::filesystem::exists(path)) return content;
+// The complete lines of one journal.
+std::vector<Record> read_lines(const std::filesystem::path& path, int& torn_lines) {
+  std::vector<Record> records;
+  if (!std::filesystem::exists(path)) return records;
   std::ifstream file(path);
   problems::require(file.good(), path.string(), "cannot be read");
-
-  std::unordered_map<std::string, std::size_t> index_of_task;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     if (line.empty()) continue;
     const auto json = nlohmann::json::parse(line, nullptr, false);
     if (json.is_discarded()) {
-      ++content.torn_lines;
-      continue;
-    }
-    Record record = record_from_json(json, path.string() + ", line " + std::to_string(number));
-    const auto [it, is_new] = index_of_task.try_emplace(task_key(record), content.records.size());
-    if (is_new) {
-      content.records.push_back(std::move(record));
+      ++torn_lines;
     } else {
-      content.records[it->second] = std::move(record);
+      records.push_back(record_from_json(json, path.string() + ", line " + std::to_string(number)));
     }
   }
+  return records;
+}
+
+// Without the sequences of which records are missing.
+std::vector<Record> whole_tasks(std::vector<Record> records, int& torn_lines) {
+  std::unordered_map<std::string, int> present;
+  for (const Record& record : records) ++present[sequence_key(record)];
+  const auto dropped = std::erase_if(records, [&](const Record& record) {
+    return present[sequence_key(record)] < record.sequence.length;
+  });
+  torn_lines += static_cast<int>(dropped);
+  return records;
+}
+
+JournalContent read_all(const std::vector<std::filesystem::path>& paths) {
+  JournalContent content;
+  Merger merger;
+  for (const auto& path : paths) merger.add(read_lines(path, content.torn_lines));
+  content.records = whole_tasks(merger.records(), content.torn_lines);
   return content;
+}
+
+}  // namespace
+
+std::filesystem::path journal_path(const std::filesystem::path& results_dir, Shard shard) {
+  if (shard.count == 1) return results_dir / "journal.jsonl";
+  return results_dir / fmt::format("journal-{}-of-{}.jsonl", shard.index, shard.count);
+}
+
+JournalContent read_journal(const std::filesystem::path& path) { return read_all({path}); }
+
+JournalContent read_results(const std::filesystem::path& results_dir) {
+  std::vector<std::filesystem::path> journals;
+  if (std::filesystem::is_directory(results_dir)) {
+    for (const auto& entry : std::filesystem::directory_iterator(results_dir)) {
+      const std::string name = entry.path().filename().string();
+      if (name.starts_with("journal") && name.ends_with(".jsonl")) journals.push_back(entry.path());
+    }
+  }
+  std::sort(journals.begin(), journals.end());
+  return read_all(journals);
 }
 
 Journal::Journal(const std::filesystem::path& path) : path_(path) {
@@ -78,35 +107,56 @@ Journal::Journal(const std::filesystem::path& path) : path_(path) {
   if (fd_ < 0) throw OutputError(path.string(), reason());
   try {
     if (!lock(fd_)) throw OutputError(path.string(), "another campaign is writing to it");
-    if (ends_torn(fd_)) write_line("\n");
+    if (ends_torn(fd_)) write_lines("\n");
   } catch (...) {
     ::close(fd_);
     throw;
   }
 }
 
-Journal::~Journal() { ::close(fd_); }
-
-void Journal::append(const Record& record) {
-  // A name may hold bytes that are no UTF-8; they must not cost the campaign its results.
-  const auto replace = nlohmann::json::error_handler_t::replace;
-  write_line(to_json(record).dump(-1, ' ', false, replace) + "\n");
+Journal::~Journal() {
+  if (unsynced_) ::fdatasync(fd_);
+  ::close(fd_);
 }
 
-void Journal::write_line(std::string_view line) {
+void Journal::append(std::span<const Record> records) {
+  // A name may hold bytes that are no UTF-8; they must not cost the campaign its results.
+  const auto replace = nlohmann::json::error_handler_t::replace;
+  std::string lines;
+  for (const Record& record : records)
+    lines += to_json(record).dump(-1, ' ', false, replace) + "\n";
+  write_lines(lines);
+  flush_if_due();
+}
+
+void Journal::flush_if_due() {
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - waiting_since_;
+  if (unsynced_ && waited.count() >= kFlush_s) flush();
+}
+
+void Journal::write_lines(std::string_view lines) {
   const off_t before = ::lseek(fd_, 0, SEEK_END);
-  std::string_view left = line;
+  std::string_view left = lines;
   bool ok = true;
   while (ok && !left.empty()) {
     const ssize_t done = ::write(fd_, left.data(), left.size());
     if (done > 0) left.remove_prefix(static_cast<std::size_t>(done));
     ok = done > 0 || (done < 0 && errno == EINTR);
   }
-  if (ok && ::fsync(fd_) == 0) return;
+  if (ok) {
+    if (!unsynced_) waiting_since_ = std::chrono::steady_clock::now();
+    unsynced_ = true;
+    return;
+  }
   const std::string why = reason();
   // If this fails too, readers ignore the torn line.
   if (::ftruncate(fd_, before) != 0) throw OutputError(path_.string(), why + " (torn line left)");
   throw OutputError(path_.string(), why);
+}
+
+void Journal::flush() {
+  if (::fdatasync(fd_) != 0) throw OutputError(path_.string(), reason());
+  unsynced_ = false;
 }
 
 }  // namespace conebench::results

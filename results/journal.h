@@ -1,17 +1,27 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "results/record.h"
 
 namespace conebench::results {
 
-/// RESULTS_DIR/journal.jsonl.
-std::filesystem::path journal_path(const std::filesystem::path& results_dir);
+/// One part of a campaign, of `count`; the whole of it is 1 of 1.
+struct Shard {
+  int index = 1;  ///< 1 to count
+  int count = 1;
+};
 
-/// What a journal holds. A line counts if it is one complete record: a line that a kill or a power
-/// loss has cut short does not, and its task is simply not done yet.
+/// RESULTS_DIR/journal.jsonl; of a shard RESULTS_DIR/journal-3-of-20.jsonl.
+std::filesystem::path journal_path(const std::filesystem::path& results_dir, Shard shard = {});
+
+/// What journals hold. A line counts if it is one complete record: a line that a kill or a power
+/// loss has cut short does not, and its task is simply not done yet. Likewise the records of a
+/// sequence count only if all of them are there.
 struct JournalContent {
   std::vector<Record> records;  ///< in the order written; of a task that ran twice, only the last
   int torn_lines = 0;           ///< lines that do not count
@@ -20,25 +30,39 @@ struct JournalContent {
 /// A journal that does not exist is empty. Throws problems::InputError when it cannot be read.
 JournalContent read_journal(const std::filesystem::path& path);
 
-/// Appends records to a journal, one JSON line each, synced to disk before append() returns.
-/// Holds a lock, so that two campaigns never write to one journal.
+/// The journals of all shards in a folder, in alphabetical order; of a task that two of them hold,
+/// the later record.
+JournalContent read_results(const std::filesystem::path& results_dir);
+
+/// Appends records to a journal, one JSON line each. A record is with the system when append()
+/// returns, so that no kill of this process can lose it, and on disk within kFlush_s of the next
+/// call of append() or flush_if_due(), so that a power loss costs at most the last kFlush_s. Holds
+/// a lock, so that two campaigns never write to one journal.
 class Journal {
  public:
+  static constexpr double kFlush_s = 0.1;
+
   /// Opens or creates the journal; terminates a torn last line. Throws problems::OutputError when
   /// the place is not writable or another process holds the lock.
   explicit Journal(const std::filesystem::path& path);
-  ~Journal();
+  ~Journal();  ///< flushes
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// All of the line or, with problems::OutputError (disk full), nothing.
-  void append(const Record& record);
+  /// The records of one task: all of their lines or, with problems::OutputError (disk full), none.
+  void append(std::span<const Record> records);
+  void append(const Record& record) { append(std::span(&record, 1)); }
+  /// Syncs to disk what has waited for kFlush_s. Throws problems::OutputError.
+  void flush_if_due();
 
  private:
-  void write_line(std::string_view line);
+  void write_lines(std::string_view lines);
+  void flush();
 
   std::filesystem::path path_;
   int fd_ = -1;
+  bool unsynced_ = false;
+  std::chrono::steady_clock::time_point waiting_since_{};
 };
 
 }  // namespace conebench::results

@@ -2,26 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 #include <tuple>
+
+#include "results/shares.h"
 
 namespace conebench::results {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// The slower middle one of an even number; infinities sort last.
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+bool run_by_all(const TimeTable::Row& row) {
+  return std::all_of(row.status.begin(), row.status.end(),
+                     [](const auto& status) { return status.has_value(); });
 }
-
-struct Runs {
-  std::vector<double> time_s;
-  Status status = Status::kCrashed;
-};
 
 double floored(double time_s) { return std::max(time_s, kShortestTime_s); }
 
@@ -50,6 +47,21 @@ std::vector<const TimeTable::Row*> common_rows(const TimeTable& table) {
   return common;
 }
 
+// Of a table whose rows are all comparable.
+std::vector<std::vector<ProfileStep>> profiles_of(const TimeTable& shown) {
+  std::vector<std::vector<ProfileStep>> profiles(shown.solvers.size());
+  for (std::size_t s = 0; s < shown.solvers.size(); ++s) {
+    std::vector<double> ratios;
+    for (const auto& row : shown.rows) {
+      if (std::isfinite(row.time_s[s])) ratios.push_back(floored(row.time_s[s]) / fastest_of(row));
+    }
+    for (const Step& step : cumulative_shares(std::move(ratios), shown.rows.size())) {
+      profiles[s].push_back({.ratio = step.value, .share = step.share});
+    }
+  }
+  return profiles;
+}
+
 }  // namespace
 
 double time_to_tolerance(const Record& record, double t) {
@@ -61,54 +73,83 @@ double time_to_tolerance(const Record& record, double t) {
   return time_s <= record.settings.time_limit_s ? time_s : kNever;
 }
 
+std::string contender(const std::string& solver, const std::string& donor) {
+  return donor.empty() ? solver : solver + " after " + donor;
+}
+
+Outcome outcome_of(std::span<const Record* const> repetitions, double t) {
+  std::vector<double> times_s;
+  const Record* last = repetitions.front();
+  for (const Record* record : repetitions) {
+    times_s.push_back(time_to_tolerance(*record, t));
+    if (record->repetition >= last->repetition) last = record;
+  }
+  const auto middle = times_s.begin() + static_cast<std::ptrdiff_t>(times_s.size() / 2);
+  std::nth_element(times_s.begin(), middle, times_s.end());  // infinities sort last
+  return {.time_s = *middle, .status = last->status};
+}
+
 TimeTable make_time_table(std::span<const Record> records, double t) {
-  TimeTable table{.tol = t, .solvers = {}, .rows = {}};
   std::map<std::string, ProblemId> problems;  // by content
-  std::map<std::pair<std::string, std::string>, Runs> runs;
+  std::map<std::pair<std::string, std::string>, std::vector<const Record*>> runs;
+  std::set<std::string> solvers;
   for (const Record& record : records) {
-    if (std::find(table.solvers.begin(), table.solvers.end(), record.solver) ==
-        table.solvers.end()) {
-      table.solvers.push_back(record.solver);
-    }
+    const std::string solver = contender(record);
+    solvers.insert(solver);
     problems.emplace(record.problem.content_sha256, record.problem);
-    Runs& task = runs[{record.problem.content_sha256, record.solver}];
-    task.time_s.push_back(time_to_tolerance(record, t));
-    task.status = record.status;
+    runs[{record.problem.content_sha256, solver}].push_back(&record);
   }
 
-  std::sort(table.solvers.begin(), table.solvers.end());
+  TimeTable table{.tol = t, .solvers = {solvers.begin(), solvers.end()}, .rows = {}};
   for (const auto& [sha, problem] : problems) {
     TimeTable::Row row{.problem = problem, .time_s = {}, .status = {}};
     for (const std::string& solver : table.solvers) {
       const auto found = runs.find({sha, solver});
       const bool ran = found != runs.end();
-      row.time_s.push_back(ran ? median(found->second.time_s) : kNever);
-      row.status.push_back(ran ? std::optional(found->second.status) : std::nullopt);
+      const Outcome outcome = ran ? outcome_of(found->second, t) : Outcome{.time_s = kNever};
+      row.time_s.push_back(outcome.time_s);
+      row.status.push_back(ran ? std::optional(outcome.status) : std::nullopt);
     }
     table.rows.push_back(std::move(row));
   }
-  std::sort(table.rows.begin(), table.rows.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.problem.family, a.problem.name) < std::tie(b.problem.family, b.problem.name);
-  });
+  std::sort(table.rows.begin(), table.rows.end(), before);
   return table;
 }
 
-std::vector<std::vector<ProfileStep>> performance_profiles(const TimeTable& table) {
-  std::vector<std::vector<ProfileStep>> profiles(table.solvers.size());
-  const double problems = static_cast<double>(table.rows.size());
-  for (std::size_t s = 0; s < table.solvers.size(); ++s) {
-    std::vector<double> ratios;
-    for (const auto& row : table.rows) {
-      if (std::isfinite(row.time_s[s])) ratios.push_back(floored(row.time_s[s]) / fastest_of(row));
-    }
-    std::sort(ratios.begin(), ratios.end());
-    for (std::size_t i = 0; i < ratios.size(); ++i) {
-      const bool last_of_its_ratio = i + 1 == ratios.size() || ratios[i + 1] > ratios[i];
-      if (!last_of_its_ratio) continue;
-      profiles[s].push_back({ratios[i], static_cast<double>(i + 1) / problems});
-    }
+bool before(const TimeTable::Row& a, const TimeTable::Row& b) {
+  const auto key = [](const ProblemId& id) {
+    return std::tie(id.family, id.name, id.content_sha256);
+  };
+  return key(a.problem) < key(b.problem);
+}
+
+TimeTable comparable(const TimeTable& table) {
+  TimeTable shown{.tol = table.tol, .solvers = table.solvers, .rows = {}};
+  std::copy_if(table.rows.begin(), table.rows.end(), std::back_inserter(shown.rows), run_by_all);
+  return shown;
+}
+
+std::vector<int> not_run(const TimeTable& table) {
+  std::vector<int> counts(table.solvers.size(), 0);
+  for (const auto& row : table.rows) {
+    for (std::size_t s = 0; s < counts.size(); ++s) counts[s] += !row.status[s].has_value();
   }
-  return profiles;
+  return counts;
+}
+
+TimeTable without_solver(const TimeTable& table, std::size_t solver) {
+  const auto place = static_cast<std::ptrdiff_t>(solver);
+  TimeTable rest = table;
+  rest.solvers.erase(rest.solvers.begin() + place);
+  for (auto& row : rest.rows) {
+    row.time_s.erase(row.time_s.begin() + place);
+    row.status.erase(row.status.begin() + place);
+  }
+  return rest;
+}
+
+std::vector<std::vector<ProfileStep>> performance_profiles(const TimeTable& table) {
+  return profiles_of(comparable(table));
 }
 
 double profile_area(std::span<const ProfileStep> profile) {
@@ -129,15 +170,18 @@ std::optional<double> shifted_geometric_mean(std::span<const double> times_s) {
 }
 
 std::vector<Rank> rank(const TimeTable& table) {
-  const auto profiles = performance_profiles(table);
-  const auto common = common_rows(table);
+  const TimeTable shown = comparable(table);
+  const auto left_out = not_run(table);
+  const auto profiles = profiles_of(shown);
+  const auto common = common_rows(shown);
   std::vector<Rank> ranking;
-  for (std::size_t s = 0; s < table.solvers.size(); ++s) {
+  for (std::size_t s = 0; s < shown.solvers.size(); ++s) {
     Rank line;
-    line.solver = table.solvers[s];
-    line.problems = static_cast<int>(table.rows.size());
+    line.solver = shown.solvers[s];
+    line.problems = static_cast<int>(shown.rows.size());
+    line.not_run = left_out[s];
     line.area = profile_area(profiles[s]);
-    for (const auto& row : table.rows) {
+    for (const auto& row : shown.rows) {
       if (!std::isfinite(row.time_s[s])) continue;
       ++line.solved;
       if (floored(row.time_s[s]) <= fastest_of(row)) ++line.fastest;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "results/status.h"
@@ -25,6 +26,8 @@ struct Settings {
   double time_limit_s = std::numeric_limits<double>::infinity();
   std::uint64_t memory_limit_bytes = 0;  ///< 0: none
   std::string stop = "common";           ///< "common" or "own": see solvers::StopTest
+  std::string mode = "cold";             ///< what a solve starts from: see harness::Mode
+  int threads = 1;                       ///< that the solver may use
 
   bool operator==(const Settings&) const = default;
 };
@@ -37,7 +40,18 @@ struct Host {
   std::string build;     ///< "RelWithDebInfo, native, ..."
   std::string version;   ///< of conebench
 
+  /// What two hosts must share for their times to be comparable: processor and cores.
+  std::string host_class() const;
+
   bool operator==(const Host&) const = default;
+};
+
+/// The place of a record in a sequence of consecutive steps that one task solved.
+struct SequencePlace {
+  std::string name{};  ///< "scene, steps 3 to 12"; empty: no sequence
+  std::string id{};    ///< hash of the contents of its problems, in order
+  int index = 0;       ///< of this record, from 0
+  int length = 1;      ///< records of the task
 };
 
 /// One look at the iterate during a solve.
@@ -56,8 +70,11 @@ struct Record {
   ProblemId problem;
   std::string solver;           ///< variant identity
   std::string kind = "method";  ///< "method", "model" or "peer"
+  std::string solver_build{};   ///< hash of what the solver was built to
   Settings settings;
   int repetition = 0;
+  SequencePlace sequence{};
+  std::string donor{};  ///< of a sequence: whose answers are the guesses; empty: the solver's own
 
   Status status = Status::kCrashed;
   std::string claimed;    ///< the solver's own status; empty if it never answered
@@ -65,11 +82,21 @@ struct Record {
   double fclib_residual = kUnknown;
   double siconos_residual = kUnknown;
   double attainable_eta = kUnknown;  ///< what rounding allows: see problems::Residual
+  double guess_eta = kUnknown;       ///< of what the solve started from
+  /// Of a model: eta of the answer in the model's own problem, where `eta` is the model's gap.
+  double model_eta = kUnknown;
   std::int64_t iterations = 0;
-  double setup_s = 0.0, solve_s = 0.0;  ///< solver time before and in the iterations
-  double wall_s = 0.0, cpu_s = 0.0;     ///< of the whole worker, loading and judging included
-  std::uint64_t peak_memory_bytes = 0;  ///< of the whole worker
-  std::vector<CurvePoint> curve;        ///< empty with the solver's own stopping test
+  /// Solver time before and in the iterations: the medians of `timed_solves` solves.
+  double setup_s = 0.0, solve_s = 0.0;
+  std::int64_t timed_solves = 1;
+  /// Half width of the 95 % interval of that median, over the median; infinite where unknown.
+  double time_spread = kUnknown;
+  double solver_cpu_s = 0.0;              ///< processor time of one solve, set-up included
+  std::uint64_t allocations = 0;          ///< calls for memory in one solve
+  std::uint64_t solver_memory_bytes = 0;  ///< growth of the resident peak in the solves
+  double wall_s = 0.0, cpu_s = 0.0;       ///< of the whole worker, loading and judging included
+  std::uint64_t peak_memory_bytes = 0;    ///< of the whole worker
+  std::vector<CurvePoint> curve;          ///< empty with the solver's own stopping test
   std::vector<std::string> notes;
   std::string error;       ///< a signal, an exception, the tail of stderr
   std::string started_at;  ///< UTC, ISO 8601
@@ -79,8 +106,15 @@ struct Record {
   bool solved() const { return eta <= settings.tol; }
 };
 
-/// Identifies a task: a hash of problem content, solver, settings and repetition. [32 hex digits]
+/// Identifies a row of results: a hash of problem content, solver and its build, settings,
+/// repetition, host class, and of a sequence its problems, the donor and the place. [32 hex digits]
 std::string task_key(const Record& record);
+
+/// The same for all records of one sequence that one task solved; task_key() of any other record.
+std::string sequence_key(const Record& record);
+
+/// The first 32 hex digits of the SHA-256 of `text`.
+std::string short_hash(std::string_view text);
 
 /// One flat object. JSON has no infinity: non-finite numbers become null, and null reads back as
 /// infinity.

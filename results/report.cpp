@@ -3,92 +3,63 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 #include "problems/error.h"
+#include "results/gbench.h"
+#include "results/html.h"
+#include "results/latex.h"
 #include "results/output.h"
-#include "results/svg_profile.h"
-#include "results/text.h"
+#include "results/speed_plots.h"
+#include "results/svg_plot.h"
 
 namespace conebench::results {
+namespace {
 
-std::vector<double> Group::tolerances() const {
-  std::vector<double> tols;
-  for (const double t : {1e-4, 1e-6}) {
-    if (t > settings.tol) tols.push_back(t);
+void check(const ReportInput& input, const ReportOutput& output) {
+  problems::require(!input.records.empty(), output.folder.string(), "no results yet");
+  const auto known = report_formats();
+  for (const std::string& format : output.formats) {
+    problems::require(format != "html" || page_files().has_value(), "--format",
+                      "html: this build has no page (CONEBENCH_REPORT_PAGE was OFF)");
+    problems::require(std::find(known.begin(), known.end(), format) != known.end(), "--format",
+                      "\"", format,
+                      "\" is no format; known: ", fmt::format("{}", fmt::join(known, ", ")));
   }
-  tols.push_back(settings.tol);
-  return tols;
 }
 
-std::vector<Group> group_by_settings(std::span<const Record> records) {
-  std::vector<Group> groups;
-  for (const Record& record : records) {
-    auto group = std::find_if(groups.begin(), groups.end(),
-                              [&](const Group& g) { return g.settings == record.settings; });
-    if (group == groups.end()) {
-      groups.push_back({.settings = record.settings, .methods = {}, .models = {}});
-      group = groups.end() - 1;
-    }
-    (record.kind == "model" ? group->models : group->methods).push_back(record);
-  }
-  return groups;
-}
+}  // namespace
 
-std::string ranking_table(std::span<const Record> records, double tol) {
-  TextTable table({"solver", "solved", "share", "fastest", "profile area", "mean time", "over"});
-  for (const Rank& r : rank(make_time_table(records, tol))) {
-    table.add({"`" + r.solver + "`", fmt::format("{}/{}", r.solved, r.problems),
-               fmt::format("{:.1f} %", 100.0 * r.solved / std::max(1, r.problems)),
-               fmt::format("{}", r.fastest), fmt::format("{:.3f}", r.area),
-               r.common_mean_s ? format_time(*r.common_mean_s) : "-", fmt::format("{}", r.common)});
-  }
-  return table.text();
-}
-
-std::string describe(const Settings& settings) {
-  std::string text = fmt::format("stop = {}, tol = {:.0e}", settings.stop, settings.tol);
-  if (std::isfinite(settings.time_limit_s)) {
-    text += fmt::format(", time limit {}", format_time(settings.time_limit_s));
-  }
-  if (settings.memory_limit_bytes > 0) {
-    text += fmt::format(", memory limit {} MiB", settings.memory_limit_bytes >> 20);
-  }
-  return text;
+std::vector<std::string> report_formats() {
+  std::vector<std::string> formats = {"md", "csv", "tex", "gbench"};
+  if (page_files()) formats.insert(formats.begin(), "html");
+  return formats;
 }
 
 std::string profile_file(std::size_t group) {
   return group == 0 ? "profile.svg" : fmt::format("profile-{}.svg", group + 1);
 }
 
-std::vector<std::filesystem::path> write_report(const std::filesystem::path& folder,
-                                                std::span<const Record> records,
-                                                const std::string& command,
-                                                const std::set<std::string>& formats) {
-  problems::require(!records.empty(), folder.string(), "no results yet");
+std::vector<std::filesystem::path> write_report(const ReportInput& input,
+                                                const ReportOutput& output) {
+  check(input, output);
   std::vector<std::filesystem::path> written;
   const auto write = [&](const std::string& name, const std::string& text) {
-    write_text_file(folder / name, text);
-    written.push_back(folder / name);
+    write_text_file(output.folder / name, text);
+    written.push_back(output.folder / name);
   };
-  for (const std::string& format : formats) {
-    problems::require(format == "md" || format == "csv", "--format", "\"", format,
-                      "\" is no format; known: md, csv");
-  }
-  if (formats.contains("md")) {
-    const auto groups = group_by_settings(records);
+  if (output.formats.contains("html")) write(output.page, html_report(input, *page_files()));
+  if (output.formats.contains("md")) {
+    const auto groups = group_by_settings(input.records);
     for (std::size_t g = 0; g < groups.size(); ++g) {
       if (groups[g].methods.empty()) continue;
       const TimeTable table = make_time_table(groups[g].methods, groups[g].settings.tol);
-      write(profile_file(g),
-            profile_svg(table, rank(table),
-                        fmt::format("Time to a verified eta <= {:.0e}, {} problems", table.tol,
-                                    table.rows.size())));
+      write(profile_file(g), svg(profile_plot(table, rank(table)), SvgUse::kFile));
     }
-    write("report.md", markdown_report(records, command));
+    write("report.md", markdown_report(input));
   }
-  if (formats.contains("csv")) write("results.csv", csv_report(records));
+  if (output.formats.contains("csv")) write("results.csv", csv_report(input.records));
+  if (output.formats.contains("tex")) write("report.tex", latex_report(input));
+  if (output.formats.contains("gbench")) write("gbench.json", gbench_report(input.records));
   return written;
 }
 

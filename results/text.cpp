@@ -31,6 +31,8 @@ std::string format_time(double time_s) {
 
 std::string format_eta(double eta) { return std::isfinite(eta) ? fmt::format("{:.1e}", eta) : "-"; }
 
+std::string tick(const std::string& name) { return "`" + name + "`"; }
+
 TextTable::TextTable(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
 
 void TextTable::add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }

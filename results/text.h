@@ -11,6 +11,9 @@ std::string format_time(double time_s);
 /// "3.1e-09"; "-" when infinite or NaN.
 std::string format_eta(double eta);
 
+/// "`gs`": a name as code.
+std::string tick(const std::string& name);
+
 /// A Markdown table whose columns are padded, so that it reads well in a terminal too.
 class TextTable {
  public:
@@ -18,6 +21,9 @@ class TextTable {
   explicit TextTable(std::vector<std::string> header);
   void add(std::vector<std::string> row);  ///< as many cells as the header
   std::string text() const;
+
+  /// The header first. In a cell, `x` is code and *x* is emphasised.
+  const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
  private:
   std::vector<std::vector<std::string>> rows_;

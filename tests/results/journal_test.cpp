@@ -56,6 +56,15 @@ TEST_F(JournalTest, NumbersThatAreNotFiniteAreNullInTheFile) {
   EXPECT_FALSE(record_from_json(json, "test").solved());
 }
 
+TEST_F(JournalTest, ReadsRecordsFromBeforeModelsHadAnEtaOfTheirOwn) {
+  Record record = make_record("p", "ccp", 0.02, 1.0);
+  record.model_eta = 1e-9;
+  auto json = to_json(record);
+  EXPECT_EQ(record_from_json(json, "test").model_eta, 1e-9);
+  json.erase("model_eta");
+  EXPECT_EQ(record_from_json(json, "test").model_eta, Record::kUnknown);
+}
+
 TEST_F(JournalTest, IgnoresATornLastLineAndEndsItBeforeGoingOn) {
   {
     Journal journal(path());

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "make_record.h"
 #include "problems/error.h"
-#include "results/svg_profile.h"
+#include "results/speed_plots.h"
+#include "results/svg_plot.h"
 #include "results/text.h"
 
 namespace conebench::results {
@@ -24,7 +26,9 @@ std::vector<Record> two_solvers() {
 }
 
 TEST(Report, ShowsTimesAndFailuresWithTheirStatus) {
-  const std::string text = markdown_report(two_solvers(), "conebench run -p a -s gs spg");
+  const auto records = two_solvers();
+  const std::string text =
+      markdown_report({.records = records, .command = "conebench run -p a -s gs spg"});
   EXPECT_THAT(text, HasSubstr("12.3 ms"));
   EXPECT_THAT(text, HasSubstr("— killed_time"));
   EXPECT_THAT(text, HasSubstr("conebench run -p a -s gs spg"));
@@ -37,12 +41,19 @@ TEST(Report, ShowsTimesAndFailuresWithTheirStatus) {
 
 TEST(Report, KeepsModelsOutOfTheRanking) {
   auto records = two_solvers();
-  records.push_back(make_record("p1", "ccp", 0.02, 0.001));
-  records.back().kind = "model";
-  const std::string text = markdown_report(records, "");
+  // One answer that solves the model, one that does not: whose eta is nobody's gap.
+  for (const auto& [problem, gap, own] :
+       {std::tuple{"p1", 0.02, 1e-9}, std::tuple{"p2", 0.75, 0.5}}) {
+    records.push_back(make_record(problem, "ccp", gap, 0.001));
+    records.back().kind = "model";
+    records.back().model_eta = own;
+  }
+  const std::string text = markdown_report({.records = records});
   EXPECT_THAT(ranking_table(group_by_settings(records)[0].methods, 1e-4), Not(HasSubstr("ccp")));
   EXPECT_THAT(text, HasSubstr("## Models"));
   EXPECT_THAT(text, HasSubstr("2.0e-02"));
+  EXPECT_THAT(text, HasSubstr("1.0e-09"));
+  EXPECT_THAT(text, Not(HasSubstr("7.5e-01")));
 }
 
 TEST(Report, ComparesOnlyWhatRanUnderTheSameRules) {
@@ -66,7 +77,9 @@ TEST(Report, TheCsvHasOneRowATaskAndQuotesWhatNeedsIt) {
 TEST(Report, WritesItsFiles) {
   const auto folder =
       std::filesystem::temp_directory_path() / ("conebench-report-" + std::to_string(::getpid()));
-  const auto written = write_report(folder, two_solvers(), "", {"md", "csv"});
+  const auto records = two_solvers();
+  const auto written =
+      write_report({.records = records}, {.folder = folder, .formats = {"md", "csv"}});
   for (const char* name : {"report.md", "results.csv", "profile.svg"}) {
     EXPECT_GT(std::filesystem::file_size(folder / name), 100u);
   }
@@ -76,18 +89,23 @@ TEST(Report, WritesItsFiles) {
 }
 
 TEST(Report, RefusesUnknownFormatsAndEmptyResults) {
-  EXPECT_THROW(write_report("x", {}, "", {"md"}), problems::InputError);
-  EXPECT_THROW(write_report("x", two_solvers(), "", {"pdf"}), problems::InputError);
+  const auto records = two_solvers();
+  EXPECT_THROW(write_report({.records = {}}, {.folder = "x", .formats = {"md"}}),
+               problems::InputError);
+  EXPECT_THROW(write_report({.records = records}, {.folder = "x", .formats = {"pdf"}}),
+               problems::InputError);
 }
 
 TEST(ProfileImage, HasACurveAndALegendEntryForEverySolver) {
   const TimeTable table = make_time_table(two_solvers(), 1e-8);
-  const std::string svg = profile_svg(table, rank(table), "a < b");
-  EXPECT_THAT(svg, HasSubstr("gs (1/1)"));
-  EXPECT_THAT(svg, HasSubstr("spg (0/1)"));
-  EXPECT_THAT(svg, HasSubstr("a &lt; b"));
-  EXPECT_THAT(svg, testing::StartsWith("<svg"));
-  EXPECT_THAT(svg, testing::EndsWith("</svg>\n"));
+  Plot plot = profile_plot(table, rank(table));
+  plot.title = "a < b";
+  const std::string image = svg(plot, SvgUse::kFile);
+  EXPECT_THAT(image, HasSubstr("gs (1/1)"));
+  EXPECT_THAT(image, HasSubstr("spg (0/1)"));
+  EXPECT_THAT(image, HasSubstr("a &lt; b"));
+  EXPECT_THAT(image, testing::StartsWith("<svg"));
+  EXPECT_THAT(image, testing::EndsWith("</svg>\n"));
 }
 
 TEST(Text, TimesHaveThreeDigitsAndAUnit) {
