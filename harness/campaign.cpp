@@ -1,12 +1,17 @@
 #include "harness/campaign.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
+#include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <random>
+#include <numeric>
+#include <optional>
 
+#include "harness/calibration.h"
 #include "harness/host.h"
 #include "harness/progress.h"
 #include "problems/error.h"
@@ -19,31 +24,7 @@ namespace {
 using results::Record;
 using results::Status;
 
-std::vector<Task> all_tasks(const CampaignOptions& options,
-                            const std::vector<ProblemSource>& problems,
-                            const std::vector<solvers::Solver>& solvers) {
-  std::vector<Task> tasks;
-  for (int repetition = 0; repetition < options.repetitions; ++repetition) {
-    for (const ProblemSource& problem : problems) {
-      for (const solvers::Solver& solver : solvers) {
-        tasks.push_back({.problem = problem.id,
-                         .load = problem.load,
-                         .solver = solver,
-                         .stop = options.stop,
-                         .memory_limit_bytes = options.memory_limit_bytes,
-                         .hard_limit_s = options.hard_limit_s,
-                         .repetition = repetition});
-      }
-    }
-  }
-  return tasks;
-}
-
-// Fisher and Yates; std::shuffle may differ between libraries.
-void shuffle(std::vector<Task>& tasks, std::uint64_t seed) {
-  std::mt19937_64 random(seed);
-  for (std::size_t i = tasks.size(); i > 1; --i) std::swap(tasks[i - 1], tasks[random() % i]);
-}
+constexpr int kAttempts = 3;  // of a task whose worker is killed from outside
 
 bool run_again(const Record& record, Rerun rerun) {
   switch (rerun) {
@@ -59,30 +40,78 @@ bool run_again(const Record& record, Rerun rerun) {
   return true;
 }
 
-std::vector<Task> open_tasks(std::vector<Task> tasks, const std::vector<Record>& records,
-                             Rerun rerun) {
-  std::map<std::string, const Record*> done;
-  for (const Record& record : records) done[results::task_key(record)] = &record;
-  std::erase_if(tasks, [&](const Task& task) {
-    const auto found = done.find(results::task_key(blank_record(task)));
-    return found != done.end() && !run_again(*found->second, rerun);
-  });
-  return tasks;
+std::filesystem::path campaign_path(const std::filesystem::path& results_dir,
+                                    results::Shard shard) {
+  if (shard.count == 1) return results_dir / "campaign.json";
+  return results_dir / fmt::format("campaign-{}-of-{}.json", shard.index, shard.count);
 }
 
-std::filesystem::path campaign_path(const std::filesystem::path& results_dir) {
-  return results_dir / "campaign.json";
+nlohmann::json to_json(const Calibration& c) {
+  nlohmann::json j = {{"arithmetic_s", c.arithmetic_s},
+                      {"memory_s", c.memory_s},
+                      {"arithmetic_spread", c.arithmetic_spread},
+                      {"memory_spread", c.memory_spread},
+                      {"processor_s", c.processor_s},
+                      {"stolen_s", c.stolen_s}};
+  if (c.frequency_hz) j["frequency_hz"] = *c.frequency_hz;
+  return j;
 }
 
-void write_campaign(const CampaignOptions& options) {
-  const nlohmann::json about = {{"command", options.command},
-                                {"seed", options.seed},
-                                {"jobs", options.jobs},
-                                {"started_at", utc_now()},
-                                {"host", to_json(current_host())}};
-  results::write_text_file(
-      campaign_path(options.results_dir),
-      about.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+// What the campaign ran on, and how fast that was: RESULTS_DIR/campaign.json.
+class Diary {
+ public:
+  explicit Diary(const CampaignOptions& options)
+      : path_(campaign_path(options.results_dir, options.shard)),
+        text_({{"command", options.command},
+               {"jobs", options.jobs},
+               {"started_at", utc_now()},
+               {"host", to_json(current_host())}}) {
+    write();
+  }
+
+  void before() { before_ = measure("calibration_before"); }
+
+  // What changed since before().
+  std::vector<std::string> after() {
+    const std::vector<std::string> signs = signs_of_drift(before_, measure("calibration_after"));
+    text_["drift"] = signs;
+    text_["ended_at"] = utc_now();
+    write();
+    return signs;
+  }
+
+ private:
+  Calibration measure(const char* key) {
+    const Calibration now = calibrate();
+    text_[key] = to_json(now);
+    write();
+    return now;
+  }
+
+  void write() const {
+    const auto replace = nlohmann::json::error_handler_t::replace;
+    results::write_text_file(path_, text_.dump(2, ' ', false, replace) + "\n");
+  }
+
+  std::filesystem::path path_;
+  nlohmann::json text_;
+  Calibration before_;
+};
+
+// Neither the solver nor one of its limits ended it: an operator, or a system out of memory. Such a
+// task is run again; if that is how it always ends, that is its result.
+bool killed_from_outside(const ChildOutcome& outcome) {
+  return outcome.signal == SIGKILL && !outcome.timed_out && !outcome.out_of_memory;
+}
+
+void check_cores(const std::vector<Task>& tasks, int jobs) {
+  int threads = 1;
+  for (const Task& task : tasks) threads = std::max(threads, task.threads);
+  problems::require(threads == 1 || jobs == 1, "--jobs", jobs, " at a time with ", threads,
+                    " threads, expected 1: threads of one task must not share cores with another");
+  const auto cores = static_cast<int>(allowed_cores().size());
+  problems::require(threads <= cores, "--threads", threads, ", expected at most the ", cores,
+                    " cores of this process");
 }
 
 }  // namespace
@@ -95,47 +124,78 @@ Rerun rerun_from(const std::string& name) {
   throw problems::InputError("--rerun", "\"" + name + "\"; known: none, failed, timeouts, all");
 }
 
-CampaignSummary run_campaign(const CampaignOptions& options,
-                             const std::vector<ProblemSource>& problems,
-                             const std::vector<solvers::Solver>& solvers) {
-  options.stop.check();
-  problems::require(options.repetitions >= 1, "--reps", options.repetitions, ", expected >= 1");
-  const auto path = results::journal_path(options.results_dir);
-  results::Journal journal(path);
-  const results::JournalContent earlier = results::read_journal(path);
-  write_campaign(options);
+std::vector<Task> open_tasks(std::vector<Task> tasks, const std::vector<Record>& records,
+                             Rerun rerun) {
+  std::map<std::string, bool> again;  // of a sequence, if any of its records wants it
+  for (const Record& record : records)
+    again[results::sequence_key(record)] |= run_again(record, rerun);
+  std::erase_if(tasks, [&](const Task& task) {
+    const auto found = again.find(results::sequence_key(blank_records(task).front()));
+    return found != again.end() && !found->second;
+  });
+  return tasks;
+}
 
-  std::vector<Task> tasks = all_tasks(options, problems, solvers);
+CampaignSummary run_campaign(const CampaignOptions& options, std::vector<Task> tasks) {
+  check_cores(tasks, options.jobs);
+  results::Journal journal(results::journal_path(options.results_dir, options.shard));
+  Diary diary(options);
+
   CampaignSummary summary;
   summary.tasks = tasks.size();
-  tasks = open_tasks(std::move(tasks), earlier.records, options.rerun);
+  tasks = open_tasks(std::move(tasks), results::read_results(options.results_dir).records,
+                     options.rerun);
   summary.earlier = summary.tasks - tasks.size();
-  shuffle(tasks, options.seed);
+  ::malloc_trim(0);  // every fork copies what the reading of the journals has left behind
+
+  if (tasks.empty()) return summary;
+  diary.before();
 
   std::optional<Progress> progress;
   if (options.show_progress) progress.emplace("tasks", tasks.size());
-  const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
+  const auto keep = [&](const Task& task, const ChildOutcome& outcome) {
     try {
-      const Record record = record_of(tasks[i], outcome);
-      journal.append(record);
+      const std::vector<Record> records = records_of(task, outcome);
+      journal.append(records);
       ++summary.done;
-      if (progress) progress->finished_one(record.solved());
+      const auto solved = [](const Record& record) { return record.solved(); };
+      if (progress) progress->finished_one(std::all_of(records.begin(), records.end(), solved));
     } catch (const problems::InputError& error) {
-      summary.lost.push_back(fmt::format("{} on {}", tasks[i].solver.name, error.what()));
+      summary.lost.push_back(fmt::format("{} on {}", task.solver->name, error.what()));
     }
   };
-  summary.interrupted = !run_pool(tasks.size(), options.jobs,
-                                  {.make = [&](std::size_t i) { return job_of(tasks[i]); },
-                                   .done = done,
-                                   .tick =
-                                       [&] {
-                                         if (progress) progress->show();
-                                       }});
+  const auto tick = [&] {
+    journal.flush_if_due();
+    if (progress) progress->show();
+  };
+  std::vector<std::size_t> open(tasks.size());
+  std::iota(open.begin(), open.end(), std::size_t{0});
+  for (int attempt = 1; !open.empty() && !summary.interrupted; ++attempt) {
+    std::vector<std::size_t> again;
+    const auto done = [&](std::size_t i, const ChildOutcome& outcome) {
+      if (attempt < kAttempts && killed_from_outside(outcome)) {
+        again.push_back(open[i]);
+      } else {
+        keep(tasks[open[i]], outcome);
+      }
+    };
+    const auto make = [&](std::size_t i) { return job_of(tasks[open[i]]); };
+    summary.interrupted =
+        !run_pool(open.size(), options.jobs, {.make = make, .done = done, .tick = tick});
+    open = std::move(again);
+  }
+  summary.drift = diary.after();
   return summary;
 }
 
 std::string campaign_command(const std::filesystem::path& results_dir) {
-  std::ifstream file(campaign_path(results_dir));
+  std::filesystem::path path = campaign_path(results_dir, {});
+  if (!std::filesystem::exists(path) && std::filesystem::is_directory(results_dir)) {
+    for (const auto& entry : std::filesystem::directory_iterator(results_dir)) {
+      if (entry.path().filename().string().starts_with("campaign-1-of-")) path = entry.path();
+    }
+  }
+  std::ifstream file(path);
   const auto json = nlohmann::json::parse(file, nullptr, false);
   return json.is_object() ? json.value("command", std::string()) : std::string();
 }

@@ -1,14 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "harness/problem_id.h"
 #include "harness/worker.h"
-#include "solvers/solver.h"
+#include "results/journal.h"
 
 namespace conebench::harness {
 
@@ -23,37 +20,37 @@ enum class Rerun {
 /// "none", "failed", "timeouts", "all". Throws problems::InputError.
 Rerun rerun_from(const std::string& name);
 
-/// The settings of a campaign; one set for all of its tasks.
+/// How a campaign, or one shard of it, is run.
 struct CampaignOptions {
-  solvers::Stop stop{};
-  std::uint64_t memory_limit_bytes = 0;
-  std::optional<double> hard_limit_s{};  ///< of a task; default_hard_limit_s() unless given
-  int repetitions = 1;
-  std::uint64_t seed = 1;  ///< of the order in which the tasks run
-  int jobs = 1;            ///< at a time; 1 for fair timing
-  Rerun rerun = Rerun::kNone;
   std::filesystem::path results_dir{};
+  results::Shard shard{};
+  int jobs = 1;  ///< tasks at a time; 1 for fair timing
+  Rerun rerun = Rerun::kNone;
   std::string command{};  ///< what the report shall say made the results
   bool show_progress = false;
 };
 
 struct CampaignSummary {
-  std::size_t tasks = 0;          ///< problems x solvers x repetitions
-  std::size_t earlier = 0;        ///< of them already in the journal, and kept
-  std::size_t done = 0;           ///< by this call
-  std::vector<std::string> lost;  ///< tasks that could not run at all, one line each
+  std::size_t tasks = 0;           ///< given
+  std::size_t earlier = 0;         ///< of them already in the journals, and kept
+  std::size_t done = 0;            ///< by this call
+  std::vector<std::string> lost;   ///< tasks that could not run at all, one line each
+  std::vector<std::string> drift;  ///< signs that the machine was not equally fast throughout
   bool interrupted = false;
 };
 
-/// Runs every solver on every problem, each task in a worker process, in a random interleaved
-/// order, so that a drift of the machine's speed hurts all solvers alike. Each finished task is a
-/// synced line in the journal before the next one starts; a campaign that was killed goes on where
-/// it stopped. Throws problems::OutputError when the results cannot be kept.
-CampaignSummary run_campaign(const CampaignOptions& options,
-                             const std::vector<ProblemSource>& problems,
-                             const std::vector<solvers::Solver>& solvers);
+/// Runs the tasks in the given order, each in a worker process. The records of each finished task
+/// are in the journal of the shard before another one starts. Tasks that any journal in the folder
+/// holds are not run again, so that a campaign that was killed, or is cut into other shards, goes
+/// on where it stopped. Throws problems::OutputError when the results cannot be kept,
+/// problems::InputError for more jobs times threads than there are cores.
+CampaignSummary run_campaign(const CampaignOptions& options, std::vector<Task> tasks);
 
-/// RESULTS_DIR/campaign.json's "command"; empty if there is none.
+/// Which of the tasks the records do not hold, or hold and shall be run again.
+std::vector<Task> open_tasks(std::vector<Task> tasks, const std::vector<results::Record>& records,
+                             Rerun rerun);
+
+/// The "command" of RESULTS_DIR/campaign.json, or of a shard's; empty if there is none.
 std::string campaign_command(const std::filesystem::path& results_dir);
 
 }  // namespace conebench::harness

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,7 +12,8 @@
 #include <csignal>
 #include <cstring>
 
-#include "harness/child_main.h"
+#include "harness/cgroup.h"
+#include "harness/supervisor.h"
 #include "problems/error.h"
 #include "results/text.h"
 
@@ -54,8 +54,40 @@ void drain(int& fd, std::string& text) {
   }
 }
 
-double seconds(const timeval& t) {
-  return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+// Reads all that is there, as it is once no process is left to write more.
+void drain_all(int& fd, std::string& text) {
+  std::size_t before = 0;
+  do {
+    before = text.size();
+    drain(fd, text);
+  } while (text.size() > before);
+}
+
+void keep_tail(std::string& text, std::size_t length) {
+  if (text.size() > length) text.erase(0, text.size() - length);
+}
+
+// A fork whose child starts with all signals blocked, so that it loses none.
+pid_t fork_with_signals_blocked() {
+  sigset_t all, before;
+  sigfillset(&all);
+  ::sigprocmask(SIG_SETMASK, &all, &before);
+  const pid_t pid = ::fork();
+  const int error = errno;
+  if (pid != 0) ::sigprocmask(SIG_SETMASK, &before, nullptr);
+  errno = error;
+  return pid;
+}
+
+int wait_for_end(pid_t pid) {
+  int status = 0;
+  while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+[[noreturn]] void fail(const char* what, int error) {
+  throw problems::OutputError("worker", fmt::format("{}: {}", what, std::strerror(error)));
 }
 
 }  // namespace
@@ -69,74 +101,71 @@ bool memory_limits_are_off() {
 }
 
 Child::Child(const std::function<std::string()>& work, const ChildLimits& limits)
-    : start_(std::chrono::steady_clock::now()), limits_(limits) {
-  Pipe output = make_pipe(), errors = make_pipe();
+    : start_(std::chrono::steady_clock::now()) {
+  if (limits.memory_bytes > 0) memory_cgroups();  // looked for here, known to all children
+  std::array<Pipe, 3> pipes{make_pipe(), make_pipe(), make_pipe()};
+  const auto& [output, errors, report] = pipes;
   const pid_t parent = ::getpid();
-  pid_ = ::fork();
-  if (pid_ == 0) run_child(work, limits, output.write, errors.write, parent);
-  ::close(output.write);
-  ::close(errors.write);
+  supervisor_ = fork_with_signals_blocked();
+  if (supervisor_ == 0) {
+    supervise(work, limits, {output.write, errors.write, report.write}, parent, start_);
+  }
+  const int error = errno;
+  for (const Pipe& pipe : pipes) {
+    ::close(pipe.write);
+    ::fcntl(pipe.read, F_SETFL, O_NONBLOCK);
+    if (supervisor_ < 0) ::close(pipe.read);
+  }
+  if (supervisor_ < 0) fail("no new process", error);
   output_fd_ = output.read;
   errors_fd_ = errors.read;
-  if (pid_ < 0) {
-    const std::string why = std::strerror(errno);
-    close_if_open(output_fd_);
-    close_if_open(errors_fd_);
-    throw problems::OutputError("worker", "no new process: " + why);
-  }
-  ::setpgid(pid_, pid_);  // whoever comes first, parent or child
-  ::fcntl(output_fd_, F_SETFL, O_NONBLOCK);
-  ::fcntl(errors_fd_, F_SETFL, O_NONBLOCK);
+  report_fd_ = report.read;
 }
 
 Child::~Child() {
-  if (pid_ > 0) {
-    kill_group();
-    ::waitpid(pid_, nullptr, 0);
+  if (supervisor_ > 0) {
+    ::kill(supervisor_, SIGTERM);
+    wait_for_end(supervisor_);
   }
   close_if_open(output_fd_);
   close_if_open(errors_fd_);
-}
-
-double Child::elapsed_s() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-}
-
-void Child::kill_group() const {
-  ::kill(-pid_, SIGKILL);
-  ::kill(pid_, SIGKILL);
+  close_if_open(report_fd_);
 }
 
 std::optional<ChildOutcome> Child::poll() {
   drain(output_fd_, outcome_.output);
   drain(errors_fd_, outcome_.errors);
-  if (outcome_.errors.size() > 2 * kKeptErrors) {
-    outcome_.errors.erase(0, outcome_.errors.size() - kKeptErrors);
-  }
-  if (!outcome_.timed_out && elapsed_s() >= limits_.wall_s) {
-    outcome_.timed_out = true;
-    kill_group();
-  }
+  if (outcome_.errors.size() > 2 * kKeptErrors) keep_tail(outcome_.errors, kKeptErrors);
+  pollfd report{report_fd_, POLLIN, 0};
+  if (::poll(&report, 1, 0) != 1) return std::nullopt;
+  return finish();
+}
 
-  int status = 0;
-  rusage usage{};
-  if (::wait4(pid_, &status, WNOHANG, &usage) != pid_) return std::nullopt;
-  outcome_.wall_s = elapsed_s();
-  ::kill(-pid_, SIGKILL);  // whatever it started and left behind
-  pid_ = -1;
-  std::size_t before = 0;
-  do {
-    before = outcome_.output.size() + outcome_.errors.size();
-    drain(output_fd_, outcome_.output);
-    drain(errors_fd_, outcome_.errors);
-  } while (outcome_.output.size() + outcome_.errors.size() > before);
-  if (outcome_.errors.size() > kKeptErrors) {
-    outcome_.errors.erase(0, outcome_.errors.size() - kKeptErrors);
+ChildOutcome Child::finish() {
+  SupervisorReport report;
+  const bool told = ::read(report_fd_, &report, sizeof report) == sizeof report;
+  int status = wait_for_end(supervisor_);
+  supervisor_ = -1;
+  close_if_open(report_fd_);
+  drain_all(output_fd_, outcome_.output);
+  drain_all(errors_fd_, outcome_.errors);
+  keep_tail(outcome_.errors, kKeptErrors);
+  if (report.error == ENOSYS) fail("/proc/PID/task/PID/children cannot be read", report.error);
+  if (report.error != 0) fail("could not be started", report.error);
+
+  if (told) {
+    status = report.status;
+  } else {  // the supervisor was killed, and its worker with it
+    report.wall_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
   outcome_.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
   outcome_.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  outcome_.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-  outcome_.peak_memory_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  outcome_.timed_out = report.timed_out;
+  outcome_.out_of_memory = report.out_of_memory;
+  outcome_.wall_s = report.wall_s;
+  outcome_.cpu_s = report.cpu_s;
+  outcome_.peak_memory_bytes = report.peak_memory_bytes;
   return outcome_;
 }
 
@@ -152,15 +181,13 @@ std::string describe_end(const ChildOutcome& outcome) {
 
 void wait_for_news(const std::vector<const Child*>& children, double longest_s) {
   std::vector<pollfd> files;
-  bool closing = false;
   for (const Child* child : children) {
-    if (child->output_fd() >= 0) files.push_back({child->output_fd(), POLLIN, 0});
-    if (child->errors_fd() >= 0) files.push_back({child->errors_fd(), POLLIN, 0});
-    if (child->output_fd() < 0) closing = true;
+    // poll(2) passes over what is closed: -1.
+    for (const int fd : {child->output_fd(), child->errors_fd(), child->report_fd()}) {
+      files.push_back({fd, POLLIN, 0});
+    }
   }
-  // A child that has closed its output is about to end, which no file tells.
-  const double wait_s = closing ? 1e-3 : longest_s;
-  ::poll(files.data(), files.size(), static_cast<int>(std::ceil(wait_s * 1e3)));
+  ::poll(files.data(), files.size(), static_cast<int>(std::ceil(longest_s * 1e3)));
 }
 
 }  // namespace conebench::harness

@@ -15,20 +15,22 @@
 namespace conebench::harness {
 namespace {
 
-constexpr double kCpuGrace_s = 10.0;  // the wall limit comes first; this is a backstop
+// Whole seconds, as the system counts processor time.
+rlim_t whole_seconds(double limit_s) {
+  return std::isfinite(limit_s) ? static_cast<rlim_t>(std::ceil(limit_s)) : RLIM_INFINITY;
+}
 
-void limit_resource(int resource, rlim_t soft) {
+void limit_resource(__rlimit_resource resource, rlim_t soft, rlim_t hard = RLIM_INFINITY) {
   rlimit limit{};
-  if (::getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) return;
+  if (::getrlimit(resource, &limit) != 0) return;
+  limit.rlim_max = std::min(hard, limit.rlim_max);
   limit.rlim_cur = std::min(soft, limit.rlim_max);
-  ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
+  ::setrlimit(resource, &limit);
 }
 
 void apply(const ChildLimits& limits) {
   limit_resource(RLIMIT_CORE, 0);
-  if (std::isfinite(limits.wall_s)) {
-    limit_resource(RLIMIT_CPU, static_cast<rlim_t>(std::ceil(limits.wall_s + kCpuGrace_s)));
-  }
+  limit_resource(RLIMIT_CPU, whole_seconds(limits.soft_cpu_s), whole_seconds(limits.cpu_s));
   if (limits.memory_bytes > 0 && !memory_limits_are_off()) {
     limit_resource(RLIMIT_AS, limits.memory_bytes);
   }
@@ -47,7 +49,7 @@ int arrange_files(int output, int errors) {
   ::dup2(null, STDIN_FILENO);
   ::dup2(null, STDOUT_FILENO);
   ::dup2(errors, STDERR_FILENO);
-  ::dup2(kept, 3);
+  ::dup3(kept, 3, O_CLOEXEC);
   ::close_range(4, ~0U, 0);
   return 3;
 }
@@ -65,23 +67,29 @@ bool write_all(int fd, const std::string& text) {
 
 // The handlers of the parent (a flag that nobody reads here) and of a sanitizer or test framework.
 void reset_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
+  for (const int signal :
+       {SIGINT, SIGTERM, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGXCPU}) {
     ::signal(signal, SIG_DFL);
   }
+  sigset_t none;
+  sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
 }  // namespace
 
 [[noreturn]] void run_child(const std::function<std::string()>& work, const ChildLimits& limits,
-                            int output, int errors, pid_t parent) {
+                            const std::optional<MemoryCgroup>& group, const SupervisorFiles& files,
+                            pid_t supervisor) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != parent) ::_exit(kUncaughtExit);
+  if (::getppid() != supervisor) ::_exit(kUncaughtExit);
   reset_signals();
-  const int result = arrange_files(output, errors);
-  apply(limits);
+  const int result = arrange_files(files.output, files.errors);
   int code = kUncaughtExit;
   try {
+    if (group) group->enter();
+    apply(limits);
     code = write_all(result, work()) ? 0 : kUncaughtExit;
   } catch (const std::exception& error) {
     const std::string text = std::string("uncaught: ") + error.what() + "\n";

@@ -85,8 +85,13 @@ void add_verbs(CLI::App& program, int& exit_code) {
   add_problem(program, exit_code);
   add_solver(program, exit_code);
   add_solve(program, exit_code);
+  add_plan(program, exit_code);
   add_run(program, exit_code);
+  add_status(program, exit_code);
+  add_merge(program, exit_code);
   add_report(program, exit_code);
+  add_compare(program, exit_code);
+  add_advise(program, exit_code);
   add_doctor(program, exit_code);
 }
 

@@ -9,6 +9,7 @@
 #include "dem/simulation.h"
 #include "dem/svg_frame.h"
 #include "dem/vtk_writer.h"
+#include "harness/dem_history.h"
 #include "harness/engine.h"
 #include "harness/step_solver.h"
 #include "problems/engine/text_file.h"
@@ -17,19 +18,31 @@
 namespace conebench::harness {
 namespace {
 
+double top_of(const dem::Placement& placement, int body) {
+  const dem::Bodies& bodies = placement.bodies;
+  const auto b = static_cast<std::size_t>(body);
+  if (bodies.is_ball(body)) return bodies.position[b].z() + bodies.radius[b];
+  double top = -std::numeric_limits<double>::infinity();
+  for (const dem::Part& part : placement.solids[static_cast<std::size_t>(bodies.solid[b])].parts) {
+    top = std::max(top, dem::bounds_of(part.piece, bodies.pose(body) * part.pose).high.z());
+  }
+  return top;
+}
+
 // What a collapse is judged by: highest point and mean height along z, and the root mean square
-// distance from the vertical through the centre of mass, of the spheres that can move.
+// distance from the vertical through the centre of mass, of the bodies that can move.
 nlohmann::json shape_of(const dem::Simulation& simulation) {
-  const dem::Spheres& spheres = simulation.spheres();
+  const dem::Bodies& bodies = simulation.bodies();
   double top = -std::numeric_limits<double>::infinity(), squares = 0.0, mass = 0.0;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; i < spheres.position.size(); ++i) {
-    if (spheres.first_dof[i] < 0) continue;
-    const Eigen::Vector3d& x = spheres.position[i];
-    top = std::max(top, x.z() + spheres.radius[i]);
-    centre += spheres.mass[i] * x;
-    squares += spheres.mass[i] * x.head<2>().squaredNorm();
-    mass += spheres.mass[i];
+  for (int i = 0; i < bodies.count(); ++i) {
+    if (!bodies.is_free(i)) continue;
+    const auto b = static_cast<std::size_t>(i);
+    const Eigen::Vector3d& x = bodies.position[b];
+    top = std::max(top, top_of(simulation.placement(), i));
+    centre += bodies.mass[b] * x;
+    squares += bodies.mass[b] * x.head<2>().squaredNorm();
+    mass += bodies.mass[b];
   }
   centre /= mass;
   const double spread = std::sqrt(std::max(0.0, squares / mass - centre.head<2>().squaredNorm()));
@@ -40,6 +53,7 @@ nlohmann::json energy_of(const dem::EnergyLedger& energy) {
   return {{"kinetic_J", energy.kinetic_J},   {"potential_J", energy.potential_J},
           {"initial_J", energy.initial_J},   {"bond_J", energy.bond_J},
           {"friction_J", energy.friction_J}, {"impact_J", energy.impact_J},
+          {"driven_J", energy.driven_J},     {"gyro_J", energy.gyro_J},
           {"scheme_J", energy.scheme_J},     {"relative_closure", energy.relative_closure()}};
 }
 
@@ -58,27 +72,34 @@ class DemEngine : public Engine {
   }
 
   void write_output(const std::filesystem::path& folder, std::int64_t stride) override {
-    vtk_.emplace(folder, scene().step_s, stride);
+    vtk_.emplace(folder, scene().step_s, simulation_.placement(), stride);
     simulation_.add_observer(std::ref(*vtk_));
+    history_.emplace(folder / "history.csv", simulation_.summary());
+    simulation_.add_observer([this](const dem::StepView&) { history_->add(simulation_); });
   }
   void finish_output() override { vtk_->finish(); }
 
-  void export_to(const std::filesystem::path& folder, engine::StepSelection selection) override {
-    exporter_.emplace(folder, selection);
+  void export_to(const std::filesystem::path& folder,
+                 const engine::StepSelection& selection) override {
+    exporter_.emplace(folder, selection, scene());
     simulation_.add_observer(std::ref(*exporter_));
   }
-  Exported exported() const override {
-    return {exporter_->written(), exporter_->without_contacts()};
+  Exported finish_export() override {
+    exporter_->finish();
+    return {exporter_->files(), exporter_->without_contacts(), exporter_->cost()};
   }
 
-  void take_frame() override {
-    frames_.push_back(dem::make_frame(simulation_.spheres(), simulation_.time_s()));
-  }
+  void save(const std::filesystem::path& path) const override { simulation_.save(path); }
+  void restart(const std::filesystem::path& path) override { simulation_.restart(path); }
+
+  void take_frame() override { frames_.push_back({simulation_.time_s(), simulation_.bodies()}); }
   void draw_frames(const std::filesystem::path& folder) const override {
-    const dem::View view = dem::fit_view(simulation_.scene(), frames_);
+    if (frames_.empty()) return;
+    const dem::Placement& placement = simulation_.placement();
+    const dem::View view = dem::fit_view(simulation_.scene(), placement.solids, frames_);
     for (std::size_t i = 0; i < frames_.size(); ++i) {
       engine::write_text_file(folder / frame_name(i),
-                              dem::draw_svg(simulation_.scene(), frames_[i], view));
+                              dem::draw_svg(simulation_.scene(), placement, frames_[i], view));
     }
   }
 
@@ -89,6 +110,7 @@ class DemEngine : public Engine {
   engine::SolverChoice solver_;
   dem::Simulation simulation_;
   std::optional<dem::VtkWriter> vtk_;
+  std::optional<DemHistory> history_;
   std::optional<dem::Exporter> exporter_;
   std::vector<dem::Frame> frames_;
 };
@@ -99,7 +121,7 @@ nlohmann::json DemEngine::summary() const {
           {"engine", "dem"},
           {"solver", solver_.name},
           {"tol", solver_.tol},
-          {"bodies", simulation_.spheres().count()},
+          {"bodies", simulation_.bodies().count()},
           {"steps", summary.steps},
           {"time_s", simulation_.time_s()},
           {"steps_without_contacts", summary.free_steps},
@@ -109,6 +131,8 @@ nlohmann::json DemEngine::summary() const {
           {"cones_most", summary.most_cones},
           {"bonds_last", summary.last_bonds},
           {"deepest_overlap_m", summary.deepest_overlap_m},
+          {"contact_s", summary.contact_s},
+          {"assembly_s", summary.assembly_s},
           {"solve_s", summary.solve_s},
           {"engine_s", summary.engine_s},
           {"shape", shape_of(simulation_)},
@@ -121,7 +145,7 @@ std::string DemEngine::summary_text() const {
   const nlohmann::json shape = shape_of(simulation_);
   std::string out;
   const auto line = [&out](std::string text) { out += std::move(text) + "\n"; };
-  line(fmt::format("scene     {} ({} bodies)", scene().name, simulation_.spheres().count()));
+  line(fmt::format("scene     {} ({} bodies)", scene().name, simulation_.bodies().count()));
   line(fmt::format("solver    {} to eta {:g}: {} iterations, {} steps did not converge",
                    solver_.name, solver_.tol, summary.iterations, summary.unconverged_steps));
   line(fmt::format("steps     {} = {:g} s, {} without contacts", summary.steps, time_s(),
@@ -138,8 +162,10 @@ std::string DemEngine::summary_text() const {
                   "ledger closes to {:.1e}",
                   energy.kinetic_J, energy.friction_J, energy.impact_J, energy.bond_J,
                   energy.relative_closure()));
-  line(fmt::format("time      {:.3g} s in the step solver, {:.3g} s in the engine", summary.solve_s,
-                   summary.engine_s));
+  line(fmt::format(
+      "time      {:.3g} s in the step solver, {:.3g} s in the engine (contacts {:.3g} s, "
+      "assembly {:.3g} s)",
+      summary.solve_s, summary.engine_s, summary.contact_s, summary.assembly_s));
   return out;
 }
 

@@ -11,20 +11,18 @@ namespace conebench::harness {
 
 std::vector<std::filesystem::path> export_scene(const SceneExport& wanted, double budget_s,
                                                 const std::string& variant,
-                                                const std::filesystem::path& folder) {
+                                                const std::filesystem::path& folder,
+                                                const std::filesystem::path& summary) {
   const std::unique_ptr<Engine> engine = make_engine(
       engine::with_overrides(find_scene(wanted.scene), wanted.overrides), {.solver = variant});
   engine->export_to(folder, {.first = wanted.first, .stride = wanted.stride});
-  std::vector<std::filesystem::path> files;
   const auto start = std::chrono::steady_clock::now();
   const std::chrono::duration<double> budget(budget_s);
   while (engine->steps() < wanted.steps && std::chrono::steady_clock::now() - start < budget) {
-    const auto before = engine->exported().written;
     engine->step();
-    if (engine->exported().written == before) continue;
-    files.push_back(problem_path(folder, engine->scene().name, engine->steps() - 1));
   }
-  return files;
+  results::write_text_file(summary, engine->summary().dump(2) + "\n");
+  return engine->finish_export().files;
 }
 
 std::vector<std::filesystem::path> write_small_problems(const std::filesystem::path& folder) {

@@ -14,11 +14,12 @@ struct SceneExport {
 };
 
 /// Simulates the scene with a solver variant, for at most `budget_s` of wall time, and writes the
-/// problems in `folder`. Returns the files. At each step the solver may use the scene's tolerance
-/// and time limit.
+/// problems in `folder`, and what the run came to in `summary`. Returns the problem files. At each
+/// step the solver may use the scene's tolerance and time limit.
 std::vector<std::filesystem::path> export_scene(const SceneExport& wanted, double budget_s,
                                                 const std::string& variant,
-                                                const std::filesystem::path& folder);
+                                                const std::filesystem::path& folder,
+                                                const std::filesystem::path& summary);
 
 /// Writes the small_recipes() as problem files in `folder`. Returns the files.
 std::vector<std::filesystem::path> write_small_problems(const std::filesystem::path& folder);

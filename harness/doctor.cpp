@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "harness/cgroup.h"
 #include "harness/child.h"
 #include "harness/host.h"
 #include "harness/units.h"
@@ -90,6 +91,12 @@ Finding siconos() {
   return {"Siconos Numerics", "not built in: no siconos:* solvers (libsiconos-numerics-dev)"};
 }
 
+Finding memory_groups() {
+  const auto& folder = memory_cgroups();
+  return {"memory control groups", folder ? fmt::format("one a worker, below {}", folder->string())
+                                          : "none writable (--mem limits address space only)"};
+}
+
 }  // namespace
 
 std::vector<Finding> examine() {
@@ -114,6 +121,7 @@ std::vector<Finding> examine() {
       {"CLI11", CLI11_VERSION},
       siconos(),
       limit("limit: address space", RLIMIT_AS, true),
+      memory_groups(),
       limit("limit: file size", RLIMIT_FSIZE, true),
       limit("limit: processes", RLIMIT_NPROC, false),
       writable("program's folder",

@@ -7,17 +7,6 @@
 #include "problems/error.h"
 
 namespace conebench::harness {
-namespace {
-
-problems::InputError without_checkpoints(const engine::SceneHeader& scene) {
-  return {scene.name, "its engine has no checkpoints; mpm has"};
-}
-
-}  // namespace
-
-void Engine::save(const std::filesystem::path&) const { throw without_checkpoints(scene()); }
-void Engine::restart(const std::filesystem::path&) { throw without_checkpoints(scene()); }
-
 std::span<const EngineKind> all_engines() {
   static const std::array<EngineKind, 2> kEngines = {dem_engine(), mpm_engine()};
   return kEngines;
@@ -50,10 +39,5 @@ engine::SolverChoice solver_choice(const engine::SceneHeader& scene, const Engin
 }
 
 std::string frame_name(std::size_t index) { return fmt::format("frame_{:03}.svg", index); }
-
-std::filesystem::path problem_path(const std::filesystem::path& folder, std::string_view scene,
-                                   std::int64_t step) {
-  return folder / fmt::format("{}_{:06}.h5", scene, step);
-}
 
 }  // namespace conebench::harness

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "problems/engine/exporter.h"
 #include "problems/engine/scene_file.h"
 #include "problems/engine/step_selection.h"
 
@@ -20,10 +21,11 @@ struct EngineOptions {
   std::string colour{};  ///< of pictures: "speed", mpm also "fraction"; empty: the engine's first
 };
 
-/// Problem files of a run so far.
+/// The problem files of a run.
 struct Exported {
-  std::int64_t written = 0;
-  std::int64_t without_cones = 0;  ///< selected steps that had no cone, hence no problem
+  std::vector<std::filesystem::path> files;  ///< in the order of steps
+  std::int64_t without_cones = 0;            ///< selected steps that had no cone, hence no problem
+  engine::ExportCost cost;
 };
 
 /// A running scene of either engine, as the verbs see it.
@@ -45,9 +47,11 @@ class Engine {
   virtual void write_output(const std::filesystem::path& folder, std::int64_t stride) = 0;
   virtual void finish_output() = 0;
 
-  /// From now on the problems of the selected steps are written to the folder; call it once.
-  virtual void export_to(const std::filesystem::path& folder, engine::StepSelection selection) = 0;
-  virtual Exported exported() const = 0;
+  /// From now on the problems of the selected steps are written for the folder; call it once.
+  virtual void export_to(const std::filesystem::path& folder,
+                         const engine::StepSelection& selection) = 0;
+  /// Puts all of them in place; call it once, after the last step.
+  virtual Exported finish_export() = 0;
 
   /// Keeps a picture of this moment; draws those kept as FOLDER/frame_000.svg and so on, in one
   /// common view.
@@ -58,10 +62,9 @@ class Engine {
   virtual nlohmann::json summary() const = 0;
   virtual std::string summary_text() const = 0;
 
-  /// Whether a run can be saved and restarted; save() and restart() of others throw InputError.
-  virtual bool has_checkpoints() const { return false; }
-  virtual void save(const std::filesystem::path& path) const;
-  virtual void restart(const std::filesystem::path& path);
+  /// Saves the run, and goes on from where one of the same scene was saved, bit for bit.
+  virtual void save(const std::filesystem::path& path) const = 0;
+  virtual void restart(const std::filesystem::path& path) = 0;
 };
 
 /// What the program knows of an engine.
@@ -91,9 +94,5 @@ engine::SolverChoice solver_choice(const engine::SceneHeader& scene, const Engin
 
 /// "frame_000.svg".
 std::string frame_name(std::size_t index);
-
-/// Where export_to() wrote the problem of a step.
-std::filesystem::path problem_path(const std::filesystem::path& folder, std::string_view scene,
-                                   std::int64_t step);
 
 }  // namespace conebench::harness

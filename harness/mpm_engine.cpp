@@ -45,11 +45,15 @@ class MpmEngine : public Engine {
   }
   void finish_output() override { vtk_->finish(); }
 
-  void export_to(const std::filesystem::path& folder, engine::StepSelection selection) override {
-    exporter_.emplace(folder, selection);
+  void export_to(const std::filesystem::path& folder,
+                 const engine::StepSelection& selection) override {
+    exporter_.emplace(folder, selection, scene());
     simulation_.add_observer(std::ref(*exporter_));
   }
-  Exported exported() const override { return {exporter_->written(), exporter_->without_cones()}; }
+  Exported finish_export() override {
+    exporter_->finish();
+    return {exporter_->files(), exporter_->without_cones(), exporter_->cost()};
+  }
 
   void take_frame() override { frames_.push_back(mpm::make_frame(simulation_)); }
   void draw_frames(const std::filesystem::path& folder) const override {
@@ -63,7 +67,6 @@ class MpmEngine : public Engine {
   nlohmann::json summary() const override;
   std::string summary_text() const override;
 
-  bool has_checkpoints() const override { return true; }
   void save(const std::filesystem::path& path) const override { simulation_.save(path); }
   void restart(const std::filesystem::path& path) override { simulation_.restart(path); }
 

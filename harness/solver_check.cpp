@@ -13,7 +13,8 @@ std::vector<ProblemSource> sources(const std::vector<std::filesystem::path>& pat
   if (!paths.empty()) return find_sources(paths, 1).problems;
   std::vector<ProblemSource> made;
   for (const NamedRecipe& named : small_recipes()) {
-    made.push_back({.id = {.name = named.name}, .load = [named] { return make_named(named); }});
+    made.push_back(
+        {.id = {.name = named.name}, .load = [named] { return only(make_named(named)); }});
   }
   return made;
 }
@@ -24,8 +25,7 @@ std::vector<CheckResult> check_solver(const solvers::Solver& solver,
                                       const std::vector<std::filesystem::path>& paths) {
   std::vector<CheckResult> results;
   for (const ProblemSource& source : sources(paths)) {
-    const auto record = run_task({.problem = source.id,
-                                  .load = source.load,
+    const auto record = run_task({.problems = {source},
                                   .solver = solver,
                                   .stop = {.tol = kTolerance, .time_limit_s = kTimeLimit_s}});
     if (!record) break;

@@ -1,7 +1,8 @@
 #include "harness/step_solver.h"
 
+#include "harness/policy.h"
+#include "harness/variants.h"
 #include "problems/error.h"
-#include "solvers/registry.h"
 
 namespace conebench::harness {
 
@@ -10,8 +11,13 @@ engine::StepSolver make_step_solver(const engine::SolverChoice& choice) {
                            .max_iterations = choice.max_iterations,
                            .time_limit_s = choice.time_limit_s};
   stop.check();
-  return [solver = solvers::make_solver(choice.name), stop](const problems::Problem& standard,
-                                                            const Eigen::VectorXd& guess) {
+  constexpr std::string_view kPolicy = "policy:";
+  if (choice.name.starts_with(kPolicy)) {
+    return make_policy_solver(read_policy(choice.name.substr(kPolicy.size())),
+                              choice.max_iterations);
+  }
+  return [solver = make_solver(choice.name), stop](const problems::Problem& standard,
+                                                   const Eigen::VectorXd& guess) {
     if (const auto reason = solver.refuses(standard)) {
       throw problems::InputError(standard.name(), solver.name + " cannot solve it: " + *reason);
     }

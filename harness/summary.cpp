@@ -6,17 +6,17 @@
 #include <cstdio>
 
 #include "harness/interrupt.h"
+#include "harness/variants.h"
 #include "problems/error.h"
 #include "results/journal.h"
 #include "results/report.h"
-#include "solvers/registry.h"
 
 namespace conebench::harness {
 
 std::vector<solvers::Solver> make_all_solvers(const std::vector<std::string>& variants) {
   std::vector<solvers::Solver> all;
   for (const std::string& variant : variants) {
-    for (solvers::Solver& solver : solvers::make_solvers(variant)) {
+    for (solvers::Solver& solver : make_solvers(variant)) {
       const bool known =
           std::any_of(all.begin(), all.end(), [&](const auto& s) { return s.name == solver.name; });
       if (!known) all.push_back(std::move(solver));
@@ -28,6 +28,7 @@ std::vector<solvers::Solver> make_all_solvers(const std::vector<std::string>& va
 void tell(const FoundSources& found) {
   fmt::print(stderr, "{} problems", found.problems.size());
   if (found.twins > 0) fmt::print(stderr, ", {} files with equal content left out", found.twins);
+  if (found.unwanted > 0) fmt::print(stderr, ", {} that --where leaves out", found.unwanted);
   if (found.skipped > 0) fmt::print(stderr, ", {} other files skipped", found.skipped);
   fmt::print(stderr, "\n");
   for (const std::string& why : found.unreadable) fmt::print(stderr, "left out: {}\n", why);
@@ -37,6 +38,9 @@ int tell(const CampaignSummary& summary) {
   fmt::print(stderr, "{} tasks: {} done now, {} kept from before\n", summary.tasks, summary.done,
              summary.earlier);
   for (const std::string& task : summary.lost) fmt::print(stderr, "could not run: {}\n", task);
+  for (const std::string& sign : summary.drift) {
+    fmt::print(stderr, "the machine changed while this ran: {}\n", sign);
+  }
   if (summary.interrupted) {
     fmt::print(stderr, "interrupted; the same command goes on where this one stopped\n");
     return kInterruptedExit;
@@ -56,13 +60,13 @@ void print_rankings(std::span<const results::Record> records) {
 }
 
 std::vector<results::Record> load_records(const std::filesystem::path& results_dir) {
-  const auto path = results::journal_path(results_dir);
-  problems::require(std::filesystem::exists(path), results_dir.string(), "holds no ",
-                    path.filename().string(), ", so no results");
-  results::JournalContent content = results::read_journal(path);
+  results::JournalContent content = results::read_results(results_dir);
   if (content.torn_lines > 0) {
-    fmt::print(stderr, "{}: {} torn lines do not count\n", path.string(), content.torn_lines);
+    fmt::print(stderr, "{}: {} torn lines do not count\n", results_dir.string(),
+               content.torn_lines);
   }
+  problems::require(!content.records.empty(), results_dir.string(),
+                    "holds no journal with a record, so no results");
   return std::move(content.records);
 }
 

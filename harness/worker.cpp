@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -10,9 +11,13 @@
 #include "harness/error_text.h"
 #include "harness/host.h"
 #include "harness/judge.h"
-#include "harness/problem_id.h"
+#include "harness/plugin_library.h"
+#include "harness/solver_build.h"
+#include "harness/timing.h"
+#include "problems/carry_over.h"
 #include "problems/problem_file.h"
-#include "solvers/monitor.h"
+#include "problems/residual.h"
+#include "solvers/linear/threads.h"
 
 namespace conebench::harness {
 namespace {
@@ -22,8 +27,13 @@ using results::Record;
 using results::Status;
 
 constexpr double kLoadAllowance_s = 30.0;
+constexpr double kLastWords_s = 1.0;  // between the soft and the hard limit
 
 // ---- In the worker.
+
+Eigen::VectorXd zero_reaction(const problems::Problem& standard) {
+  return Eigen::VectorXd::Zero(standard.rows());
+}
 
 void lift_memory_limit() {
   rlimit limit{};
@@ -39,43 +49,115 @@ void write_solution(const std::filesystem::path& path, const problems::Problem& 
   problems::write_solution_file(path, problem, solution);
 }
 
-solvers::Result solve(const Task& task, const problems::Problem& standard, Record& record) {
-  if (const auto reason = task.solver.refuses ? task.solver.refuses(standard) : std::nullopt) {
-    solvers::Result refusal;
-    refusal.notes = {*reason};
-    return refusal;
-  }
-  solvers::Monitor monitor(standard, task.stop);
-  solvers::Request request{.stop = task.stop, .guess = {}, .monitor = &monitor};
-  solvers::Result result = task.solver.solve(standard, request);
-  for (const auto& p : monitor.curve()) record.curve.push_back({p.time_s, p.iteration, p.eta});
-  return result;
-}
-
 void fail(Record& record, Status status, const std::string& error) {
   record.status = status;
   record.error = error;
 }
 
-Record attempt(const Task& task) {
-  Record record = blank_record(task);
-  const problems::Problem problem = task.load();
-  complete(record.problem, problem);
-  const problems::Problem standard = problem.shifted();
-  std::optional<solvers::Result> result;
+TimedSolves solve(const Task& task, const problems::Problem& standard,
+                  const Eigen::VectorXd& guess) {
+  if (const auto reason = task.solver->refuses ? task.solver->refuses(standard) : std::nullopt) {
+    TimedSolves refusal;
+    refusal.result.notes = {*reason};
+    return refusal;
+  }
+  return time_solves(*task.solver, standard, guess, task.stop,
+                     {.by_confidence = task.repeat_for_confidence});
+}
+
+void write_cost(const TimedSolves& timed, Record& record) {
+  for (const auto& p : timed.curve) record.curve.push_back({p.time_s, p.iteration, p.eta});
+  record.setup_s = timed.setup_s;
+  record.solve_s = timed.solve_s;
+  record.timed_solves = timed.solves;
+  record.time_spread = timed.spread;
+  record.solver_cpu_s = timed.cpu_s;
+  record.allocations = timed.allocations;
+  record.solver_memory_bytes = timed.memory_bytes;
+  record.peak_memory_bytes = timed.process_peak_bytes;
+}
+
+// Solves, judges and writes into the record; the answer, or nothing of use.
+Eigen::VectorXd answer(const Task& task, const problems::Problem& problem,
+                       const problems::Problem& standard, const Eigen::VectorXd& guess,
+                       Record& record) {
+  record.guess_eta =
+      problems::evaluate_eta(standard, guess.size() > 0 ? guess : zero_reaction(standard));
+  TimedSolves timed;
   try {
-    result = solve(task, standard, record);
+    timed = solve(task, standard, guess);
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const BadAbi& error) {
+    fail(record, Status::kBadAbi, error.what());
+    return {};
   } catch (const std::exception& error) {
     fail(record, Status::kCrashed, fmt::format("the solver threw: {}", error.what()));
-    return record;
+    return {};
   }
-  judge(standard, *result, record);
-  if (task.solution_file && std::isfinite(record.eta)) {
-    write_solution(*task.solution_file, problem, standard, result->r, record.eta);
+  judge(standard, timed.result, record);
+  write_cost(timed, record);
+  if (!std::isfinite(record.eta)) return {};
+  const Eigen::VectorXd& r = timed.result.r;
+  if (task.solution_file) write_solution(*task.solution_file, problem, standard, r, record.eta);
+  return r;
+}
+
+// One step of a sequence: where its problem lies, and the answers that came out of it.
+struct Step {
+  problems::ProblemFile file;
+  Eigen::VectorXd own, donated;  // empty: none of use
+};
+
+Eigen::VectorXd carried(const std::optional<Step>& before, const Eigen::VectorXd Step::*answers,
+                        const problems::ProblemFile& now) {
+  if (!before || ((*before).*answers).size() == 0) return {};
+  return problems::carry_over(before->file, (*before).*answers, now);
+}
+
+// The donor's answer, of which nobody judges but the receiver's success; any failure is no answer.
+Eigen::VectorXd donation(const Task& task, const problems::Problem& standard,
+                         const Eigen::VectorXd& guess) {
+  const solvers::Solver& donor = **task.donor;
+  try {
+    if (donor.refuses && donor.refuses(standard)) return {};
+    const solvers::Result result =
+        donor.solve(standard, {.stop = task.stop, .guess = guess, .monitor = nullptr});
+    const bool usable = result.r.size() == standard.rows() && result.r.allFinite();
+    return usable ? result.r : Eigen::VectorXd();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {
+    return {};
   }
-  return record;
+}
+
+std::vector<Record> attempt(const Task& task) {
+  std::vector<Record> records = blank_records(task);
+  std::optional<Step> before;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    Step step{.file = (*task.problems)[k].load(), .own = {}, .donated = {}};
+    const problems::Problem& problem = step.file.problem;
+    complete(records[k].problem, problem);
+    const problems::Problem standard = problem.shifted();
+    Eigen::VectorXd guess;
+    if (task.mode == Mode::kWarm) guess = step.file.guess;
+    if (task.mode == Mode::kSequence) {
+      guess = carried(before, task.donor ? &Step::donated : &Step::own, step.file);
+    }
+    step.own = answer(task, problem, standard, guess, records[k]);
+    if (task.donor) {
+      step.donated = donation(task, standard, carried(before, &Step::donated, step.file));
+    }
+    before = std::move(step);
+  }
+  return records;
+}
+
+json to_json(const std::vector<Record>& records) {
+  json list = json::array();
+  for (const Record& record : records) list.push_back(results::to_json(record));
+  return list;
 }
 
 std::string dump(const json& message) {
@@ -84,16 +166,17 @@ std::string dump(const json& message) {
 
 std::string work(const Task& task) {
   try {
-    return dump({{"record", to_json(attempt(task))}});
+    solvers::pin_library_threads(task.threads);
+    return dump({{"records", to_json(attempt(task))}});
   } catch (const problems::InputError& error) {
     return dump({{"input_error", error.what()}, {"subject", error.subject()}});
   } catch (const problems::OutputError& error) {
     return dump({{"output_error", error.what()}});
   } catch (const std::bad_alloc&) {
     lift_memory_limit();
-    Record record = blank_record(task);
-    fail(record, Status::kKilledMemory, "an allocation failed");
-    return dump({{"record", to_json(record)}});
+    std::vector<Record> records = blank_records(task);
+    for (Record& record : records) fail(record, Status::kKilledMemory, "an allocation failed");
+    return dump({{"records", to_json(records)}});
   }
 }
 
@@ -103,6 +186,8 @@ std::string work(const Task& task) {
 void explain_death(const ChildOutcome& outcome, Record& record) {
   if (outcome.timed_out || outcome.signal == SIGXCPU) {
     fail(record, Status::kKilledTime, "at the hard limit: " + describe_end(outcome));
+  } else if (outcome.out_of_memory) {
+    fail(record, Status::kKilledMemory, "killed at its limit of memory");
   } else if (outcome.errors.find("std::bad_alloc") != std::string::npos) {
     fail(record, Status::kKilledMemory, "an allocation failed");
   } else if (outcome.signal == SIGKILL) {
@@ -112,64 +197,102 @@ void explain_death(const ChildOutcome& outcome, Record& record) {
   }
 }
 
-Record decoded(const json& message) {
+std::vector<Record> decoded(const json& message) {
   if (message.contains("input_error")) {
     throw input_error(message["input_error"], message["subject"]);
   }
   if (message.contains("output_error")) {
     throw problems::OutputError("solution", std::string(message["output_error"]));
   }
-  return results::record_from_json(message.at("record"), "worker");
+  std::vector<Record> records;
+  for (const json& record : message.at("records")) {
+    records.push_back(results::record_from_json(record, "worker"));
+  }
+  return records;
+}
+
+// "mpm/sand-column, steps 3 to 12", and what identifies it.
+results::SequencePlace sequence_of(const Task& task) {
+  if (task.mode != Mode::kSequence) return {};
+  const ProblemSource &first = task.problems->front(), &last = task.problems->back();
+  std::string contents;
+  for (const ProblemSource& problem : *task.problems) contents += problem.id.content_sha256 + "\n";
+  return {.name = fmt::format("{}, steps {} to {}", first.id.family, first.step, last.step),
+          .id = results::short_hash(contents),
+          .index = 0,
+          .length = static_cast<int>(task.problems->size())};
 }
 
 }  // namespace
 
 double default_hard_limit_s(double time_limit_s) { return 2.0 * time_limit_s + kLoadAllowance_s; }
 
-Record blank_record(const Task& task) {
+std::vector<Record> blank_records(const Task& task) {
   static const results::Host host = current_host();
   Record record;
-  record.problem = task.problem;
-  record.solver = task.solver.name;
-  record.kind = solvers::to_string(task.solver.kind);
+  record.solver = task.solver->name;
+  record.solver_build = build_of(*task.solver);
+  record.kind = solvers::to_string(task.solver->kind);
   record.settings = {.tol = task.stop.tol,
                      .time_limit_s = task.stop.time_limit_s,
                      .memory_limit_bytes = task.memory_limit_bytes,
-                     .stop = task.stop.test == solvers::StopTest::kOwn ? "own" : "common"};
+                     .stop = task.stop.test == solvers::StopTest::kOwn ? "own" : "common",
+                     .mode = std::string(to_string(task.mode)),
+                     .threads = task.threads};
   record.repetition = task.repetition;
+  record.sequence = sequence_of(task);
+  if (task.donor) record.donor = (*task.donor)->name;
   record.started_at = utc_now();
   record.host = host;
-  return record;
+  std::vector<Record> records(task.problems->size(), record);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    records[k].problem = (*task.problems)[k].id;
+    records[k].sequence.index = static_cast<int>(k);
+  }
+  return records;
 }
 
 Job job_of(const Task& task) {
-  return {
-      .work = [task] { return work(task); },
-      .limits = {.wall_s = task.hard_limit_s.value_or(default_hard_limit_s(task.stop.time_limit_s)),
-                 .memory_bytes = task.memory_limit_bytes}};
+  const double each = task.hard_limit_s.value_or(default_hard_limit_s(task.stop.time_limit_s));
+  const double solvers_of_a_step = task.donor ? 2.0 : 1.0;
+  const double limit = each * solvers_of_a_step * static_cast<double>(task.problems->size());
+  const double cpu = limit * task.threads;
+  return {.work = [task] { return work(task); },
+          .limits = {.wall_s = limit + kLastWords_s,
+                     .memory_bytes = task.memory_limit_bytes,
+                     .soft_wall_s = limit,
+                     .cpu_s = cpu + 2.0 * kLastWords_s,
+                     .soft_cpu_s = cpu + kLastWords_s}};
 }
 
-Record record_of(const Task& task, const ChildOutcome& outcome) {
+std::vector<Record> records_of(const Task& task, const ChildOutcome& outcome) {
   const json message = json::parse(outcome.output, nullptr, false);
-  Record record = blank_record(task);
+  std::vector<Record> records;
   if (message.is_discarded()) {
-    record.started_at = utc_now(outcome.wall_s);
-    explain_death(outcome, record);
+    records = blank_records(task);
+    for (Record& record : records) {
+      record.started_at = utc_now(outcome.wall_s);
+      explain_death(outcome, record);
+    }
   } else {
-    record = decoded(message);
+    records = decoded(message);
   }
-  record.wall_s = outcome.wall_s;
-  record.cpu_s = outcome.cpu_s;
-  record.peak_memory_bytes = outcome.peak_memory_bytes;
-  return record;
+  for (Record& record : records) {
+    record.wall_s = outcome.wall_s;
+    record.cpu_s = outcome.cpu_s;
+    record.peak_memory_bytes = std::max(record.peak_memory_bytes, outcome.peak_memory_bytes);
+  }
+  return records;
 }
 
 std::optional<Record> run_task(const Task& task) {
   std::optional<Record> record;
-  run_pool(1, 1,
-           {.make = [&](std::size_t) { return job_of(task); },
-            .done = [&](std::size_t, const ChildOutcome& o) { record = record_of(task, o); },
-            .tick = {}});
+  run_pool(
+      1, 1,
+      {.make = [&](std::size_t) { return job_of(task); },
+       .done = [&](std::size_t,
+                   const ChildOutcome& outcome) { record = records_of(task, outcome).front(); },
+       .tick = {}});
   return record;
 }
 

@@ -21,9 +21,11 @@ MAY_INCLUDE = {
     "harness": {"problems", "solvers", "dem", "mpm", "results"},
 }
 # Libraries whose types must not stand in a header that crosses a folder.
-PRIVATE_LIBRARIES = re.compile(r"<(hdf5|H5|Ip|coin|nlopt|cholmod|umfpack|SuiteSparse|openssl)")
+PRIVATE_LIBRARIES = re.compile(
+    r"<(hdf5|H5|Ip|coin|nlopt|cholmod|umfpack|SuiteSparse|openssl|SQLiteCpp|sqlite|"
+    r"Bullet|LinearMath|bt[A-Z])")
 # Headers that only their own folder may include.
-INTERNAL = {"problems/hdf5_file.h"}
+INTERNAL = {"problems/hdf5_file.h", "results/store_connection.h"}
 # The only files of an engine that make a Problem.
 MAKES_PROBLEM = re.compile(r"\bProblem\s*\(\s*(problems::)?(PrimalData|ReducedData)|\bPrimalData\s*\{")
 

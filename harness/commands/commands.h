@@ -11,10 +11,15 @@ void add_problem(CLI::App& app, int& exit_code);  // list|show|verify|import|exp
 void add_scene(CLI::App& app, int& exit_code);    // list|show
 void add_simulate(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
-void add_solver(CLI::App& app, int& exit_code);  // list|show|check
+void add_solver(CLI::App& app, int& exit_code);  // list|show|check|new
 void add_solve(CLI::App& app, int& exit_code);
+void add_plan(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);
+void add_status(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
+void add_compare(CLI::App& app, int& exit_code);
+void add_advise(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
 

@@ -8,7 +8,10 @@
 #include "harness/commands/commands.h"
 #include "harness/demo_files.h"
 #include "harness/interrupt.h"
+#include "harness/report_views.h"
+#include "harness/step_costs.h"
 #include "harness/summary.h"
+#include "harness/tasks.h"
 #include "problems/error.h"
 #include "results/journal.h"
 #include "results/report.h"
@@ -63,11 +66,12 @@ void append_lines(const std::string& lines, Files& files) {
 
 // Each scene in a process of its own, both at once where there are two cores. False: interrupted.
 bool simulate_scenes(const std::vector<SceneExport>& scenes, const std::filesystem::path& folder,
-                     Files& files) {
+                     const std::filesystem::path& summaries, Files& files) {
   const auto make = [&](std::size_t i) -> Job {
     return {.work =
-                [scene = scenes[i], folder] {
-                  return joined(export_scene(scene, kSceneBudget_s, kSceneSolver, folder));
+                [scene = scenes[i], folder, summaries] {
+                  return joined(export_scene(scene, kSceneBudget_s, kSceneSolver, folder,
+                                             summaries / (scene.scene + ".json")));
                 },
             .limits = {.wall_s = kSceneLimit_s, .memory_bytes = 0}};
   };
@@ -89,14 +93,18 @@ void clear_results(const std::filesystem::path& results_dir) {
   std::filesystem::remove(journal);
 }
 
-CampaignOptions campaign_options(const std::filesystem::path& results_dir) {
-  return {.stop = {.tol = kTolerance, .time_limit_s = kTaskLimit_s},
-          .memory_limit_bytes = kTaskMemory,
-          .hard_limit_s = kTaskHardLimit_s,
-          .jobs = demo_jobs(),
-          .results_dir = results_dir,
-          .command = command_line(),
-          .show_progress = true};
+std::vector<Task> tasks_on(const std::vector<ProblemSource>& problems) {
+  const auto solvers = make_all_solvers(demo_variants());
+  const Plan plan{.stops = {{.tol = kTolerance, .time_limit_s = kTaskLimit_s}},
+                  .solvers = {solvers.begin(), solvers.end()},
+                  .modes = {Mode::kCold},
+                  .donors = {},
+                  .threads = {1},
+                  .memory_limit_bytes = kTaskMemory,
+                  .hard_limit_s = kTaskHardLimit_s};
+  std::vector<Task> tasks = tasks_of_shard(make_task_groups(plan, problems).groups, {});
+  shuffle(tasks, plan.seed);
+  return tasks;
 }
 
 int demo(const std::filesystem::path& folder, const std::filesystem::path& data) {
@@ -105,7 +113,8 @@ int demo(const std::filesystem::path& folder, const std::filesystem::path& data)
   const std::vector<SceneExport> scenes = demo_scenes();
   fmt::print(stderr, "1/4  simulating {} scenes: spheres (dem) and sand (mpm)\n", scenes.size());
   Files files;
-  if (!simulate_scenes(scenes, problems_dir, files)) return kInterruptedExit;
+  if (!simulate_scenes(scenes, problems_dir, simulations_folder(results_dir), files))
+    return kInterruptedExit;
   fmt::print(stderr, "     {} steps exported to {}\n", files.size(), problems_dir.string());
 
   fmt::print(stderr, "2/4  making small problems with known solutions\n");
@@ -115,17 +124,28 @@ int demo(const std::filesystem::path& folder, const std::filesystem::path& data)
   const FoundSources found = find_sources(files, demo_jobs());
   if (found.interrupted) return kInterruptedExit;
 
-  const auto solvers = make_all_solvers(demo_variants());
-  fmt::print(stderr, "3/4  solving to eta <= {:.0e}, {} solvers, on ", kTolerance, solvers.size());
+  fmt::print(stderr, "3/4  solving to eta <= {:.0e}, {} solvers, on ", kTolerance,
+             demo_variants().size());
   tell(found);
-  const CampaignSummary summary =
-      run_campaign(campaign_options(results_dir), found.problems, solvers);
+  const CampaignSummary summary = run_campaign({.results_dir = results_dir,
+                                                .jobs = demo_jobs(),
+                                                .command = command_line(),
+                                                .show_progress = true},
+                                               tasks_on(found.problems));
   const int code = tell(summary);
   if (summary.interrupted) return code;
 
   fmt::print(stderr, "4/4  report\n");
   const auto records = load_records(results_dir);
-  const auto written = results::write_report(folder, records, command_line(), {"md", "csv"});
+  const auto formats = results::report_formats();
+  ReportViews views = make_views(records);
+  const auto written =
+      results::write_report({.records = records,
+                             .command = command_line(),
+                             .scene_costs = read_scene_costs(results_dir),
+                             .views = std::move(views.views),
+                             .no_views = std::move(views.note)},
+                            {.folder = folder, .formats = {formats.begin(), formats.end()}});
   print_rankings(records);
   for (const auto& file : written) fmt::print("{}\n", file.string());
   return code;

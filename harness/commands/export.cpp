@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 
 #include "harness/commands/commands.h"
@@ -16,6 +17,13 @@ struct ExportOptions {
   std::int64_t every = 0;
 };
 
+std::string describe(const engine::ExportCost& cost, double run_s) {
+  return fmt::format(
+      "exporting held the engine for {:.3g} s of {:.3g} s ({:.2g} %); it waited {} times for the "
+      "writer, {:.3g} s",
+      cost.total_s, run_s, 100.0 * cost.total_s / run_s, cost.waits, cost.waited_s);
+}
+
 int export_steps(const ExportOptions& options) {
   const std::string policy =
       options.every > 0 ? "every:" + std::to_string(options.every) : options.policy;
@@ -24,12 +32,15 @@ int export_steps(const ExportOptions& options) {
   engine->export_to(options.folder, selection);
 
   catch_interrupts();
+  const auto start = std::chrono::steady_clock::now();
   const Course course(*engine, options.run);
   while (!course.done() && !interrupted()) engine->step();
+  const Exported exported = engine->finish_export();
+  const std::chrono::duration<double> run = std::chrono::steady_clock::now() - start;
 
-  const auto [written, without_cones] = engine->exported();
-  fmt::print("{} problems of {} steps in {} ({} selected steps had no contact)\n", written,
-             engine->steps(), options.folder, without_cones);
+  fmt::print("{} problems of {} steps in {} ({} selected steps had no contact)\n{}\n",
+             exported.files.size(), engine->steps(), options.folder, exported.without_cones,
+             describe(exported.cost, run.count()));
   if (const auto failed = engine->unconverged_steps()) {
     fmt::print(stderr, "conebench: {} steps did not converge to {:g}\n", failed,
                engine->scene().solver.tol);
@@ -46,7 +57,8 @@ void add_export(CLI::App& app, int& exit_code) {
   verb->add_option("-o,--output", options->folder, "Folder for <scene>_<step>.h5")->required();
   CLI::Option* every = verb->add_option("--every", options->every, "Write every N-th step")
                            ->check(CLI::PositiveNumber);
-  verb->add_option("--policy", options->policy, "Which steps: all, every:N or N..M")
+  verb->add_option("--policy", options->policy,
+                   "Which steps: all, every:N, N..M, hardest:K, reservoir:K or stratified:K")
       ->capture_default_str()
       ->excludes(every);
   verb->callback([options, &exit_code] { exit_code = export_steps(*options); });

@@ -1,6 +1,21 @@
 #include "harness/commands/scene_run.h"
 
+#include <malloc.h>
+
+#include <limits>
+
 namespace conebench::harness {
+namespace {
+
+// A step's arrays are about as large as those of the step before: their pages are kept, since to
+// get them anew from the system takes a fifth of a step of 12 000 contacts.
+void keep_freed_memory() {
+  constexpr int kLargestKept = 32 << 20;  // the most that glibc takes
+  mallopt(M_MMAP_THRESHOLD, kLargestKept);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& verb, SceneRun& run) {
   verb.add_option("SCENE", run.scene, "Built-in name or .toml file")->required();
@@ -14,6 +29,7 @@ void add_scene_options(CLI::App& verb, SceneRun& run) {
 }
 
 std::unique_ptr<Engine> make_engine(const SceneRun& run) {
+  keep_freed_memory();
   return make_engine(engine::with_overrides(find_scene(run.scene), run.overrides), run.engine);
 }
 

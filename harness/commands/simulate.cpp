@@ -43,14 +43,12 @@ class Film {
   std::int64_t count_, taken_ = 0;
 };
 
-void check(const SimulateOptions& options, const Engine& engine) {
+void check(const SimulateOptions& options) {
   problems::require(options.frames == 0 || !options.folder.empty(), "--frames",
                     "needs a folder for its pictures, expected -o DIR");
   if (options.checkpoint_every == 0) return;
   problems::require(!options.folder.empty(), "--checkpoint-every",
                     "needs a folder for its files, expected -o DIR");
-  problems::require(engine.has_checkpoints(), "--checkpoint-every", "the engine of scene ",
-                    engine.scene().name, " has no checkpoints, expected one of mpm");
 }
 
 void save_checkpoint(const Engine& engine, const std::filesystem::path& folder) {
@@ -73,7 +71,7 @@ void run_course(Engine& engine, const Course& course, const SimulateOptions& opt
 
 int simulate(const SimulateOptions& options) {
   const std::unique_ptr<Engine> engine = make_engine(options.run);
-  check(options, *engine);
+  check(options);
   if (!options.restart.empty()) engine->restart(options.restart);
   const Course course(*engine, options.run);
   const bool has_output = !options.folder.empty();
@@ -98,15 +96,15 @@ void add_simulate(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("simulate", "Run a scene through its engine");
   add_scene_options(*verb, options->run);
   verb->add_option("-o,--output", options->folder,
-                   "Folder for ParaView files, summary.json and history.csv (mpm)");
+                   "Folder for ParaView files, summary.json and history.csv (a line a step)");
   verb->add_option("--frames", options->frames, "Also draw N pictures (SVG) in the folder")
       ->check(CLI::PositiveNumber);
   verb->add_option("--colour", options->run.engine.colour,
                    "Of the pictures: speed, or fraction (of volume, mpm)");
   verb->add_option("--checkpoint-every", options->checkpoint_every,
-                   "Save the run every N steps as checkpoint_<step>.cbor in the folder (mpm)")
+                   "Save the run every N steps as checkpoint_<step>.cbor in the folder")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--restart", options->restart, "Go on from a checkpoint of this scene (mpm)");
+  verb->add_option("--restart", options->restart, "Go on from a checkpoint of this scene");
   verb->add_flag("--json", options->json, "Print the summary as one JSON object");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }

@@ -7,10 +7,10 @@
 #include "harness/interrupt.h"
 #include "harness/problem_id.h"
 #include "harness/settings.h"
+#include "harness/variants.h"
 #include "harness/worker.h"
 #include "problems/error.h"
 #include "results/text.h"
-#include "solvers/registry.h"
 
 namespace conebench::harness {
 namespace {
@@ -27,6 +27,10 @@ void print_record(const results::Record& r) {
   fmt::print("status          {}\n", results::to_string(r.status));
   fmt::print("eta             {}   (verified; tolerance {:.1e}; a residual, not an error bound)\n",
              results::format_eta(r.eta), r.settings.tol);
+  if (r.kind == "model") {
+    fmt::print("model_eta       {}   (in the model's own problem; eta is the model's gap)\n",
+               results::format_eta(r.model_eta));
+  }
   fmt::print("fclib_residual  {}\n", results::format_eta(r.fclib_residual));
   fmt::print("iterations      {}\n", r.iterations);
   fmt::print("time            {} set-up, {} iterations\n", results::format_time(r.setup_s),
@@ -43,10 +47,8 @@ int exit_code_of(const results::Record& record, bool strict) {
 int solve(const SolveOptions& options) {
   problems::require(std::filesystem::is_regular_file(options.file), options.file,
                     "is no file; expected one problem");
-  const ProblemSource source = source_from_file(options.file);
-  Task task{.problem = source.id,
-            .load = source.load,
-            .solver = solvers::make_solver(options.solver),
+  Task task{.problems = {source_from_file(options.file)},
+            .solver = make_solver(options.solver),
             .stop = options.settings.checked_stop(),
             .memory_limit_bytes = options.settings.memory_limit_bytes(),
             .hard_limit_s = options.settings.hard_limit_s()};

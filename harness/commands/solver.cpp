@@ -4,7 +4,10 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/commands.h"
+#include "harness/plugin.h"
+#include "harness/skeleton.h"
 #include "harness/solver_check.h"
+#include "harness/variants.h"
 #include "problems/error.h"
 #include "problems/suggest.h"
 #include "results/text.h"
@@ -46,7 +49,8 @@ json to_json(const solvers::Method& method) {
           {"parameters", parameters}};
 }
 
-const solvers::Method& method_named(const std::string& name) {
+solvers::Method method_named(const std::string& name) {
+  if (name.starts_with(kPluginPrefix)) return plugin_method({name, {}});
   std::vector<std::string> known;
   for (const auto& method : solvers::all_methods()) {
     if (method.name == name) return method;
@@ -68,11 +72,13 @@ void list(bool as_json) {
     fmt::print("{:<16} {:<7} {}\n", method.name, solvers::to_string(method.kind), method.summary);
   }
   fmt::print("{:<16} {:<7} {}\n", "exec:PROGRAM", "peer",
-             "a program of yours: reads a problem file, writes r (examples/README.md)");
+             "a program of yours: reads a problem file, writes r (docs/add-a-solver.md)");
+  fmt::print("{:<16} {:<7} {}\n", "plugin:FILE", "peer",
+             "a shared library of yours: harness/plugin_api.h (docs/add-a-solver.md)");
 }
 
 void show(const std::string& name, bool as_json) {
-  const solvers::Method& method = method_named(name);
+  const solvers::Method method = method_named(name);
   if (as_json) {
     fmt::print("{}\n", to_json(method).dump(2));
     return;
@@ -85,7 +91,7 @@ void show(const std::string& name, bool as_json) {
 
 int check(const std::string& variant, const std::vector<std::filesystem::path>& paths) {
   bool good = true;
-  for (const CheckResult& result : check_solver(solvers::make_solver(variant), paths)) {
+  for (const CheckResult& result : check_solver(make_solver(variant), paths)) {
     const auto& r = result.record;
     fmt::print("{}  {}: {}, eta {}, {} iterations{}\n", result.passed ? "pass" : "FAIL",
                r.problem.name, results::to_string(r.status), results::format_eta(r.eta),
@@ -95,16 +101,26 @@ int check(const std::string& variant, const std::vector<std::filesystem::path>& 
   return good ? 0 : 1;
 }
 
+void make_new(const std::string& name, const std::string& language,
+              const std::filesystem::path& folder) {
+  for (const auto& path : write_skeleton(name, language, folder)) {
+    fmt::print("{}\n", path.string());
+  }
+}
+
 }  // namespace
 
 void add_solver(CLI::App& app, int& exit_code) {
   struct Options {
     std::string name;
     std::vector<std::filesystem::path> paths;
+    std::string language = "c++";
+    std::filesystem::path folder;
     bool json = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* verb = app.add_subcommand("solver", "List, show or check the solvers");
+  CLI::App* verb =
+      app.add_subcommand("solver", "List, show or check the solvers, or start a new one");
   verb->require_subcommand(1);
 
   CLI::App* list_verb = verb->add_subcommand("list", "All solvers, one a line");
@@ -112,7 +128,7 @@ void add_solver(CLI::App& app, int& exit_code) {
   list_verb->callback([options] { list(options->json); });
 
   CLI::App* show_verb = verb->add_subcommand("show", "A solver's parameters");
-  show_verb->add_option("NAME", options->name, "e.g. gs")->required();
+  show_verb->add_option("NAME", options->name, "e.g. gs, or plugin:FILE")->required();
   show_verb->add_flag("--json", options->json, "Print one JSON object");
   show_verb->callback([options] { show(options->name, options->json); });
 
@@ -121,6 +137,16 @@ void add_solver(CLI::App& app, int& exit_code) {
   check_verb->add_option("VARIANT", options->name, "e.g. gs[omega=0.8]")->required();
   check_verb->add_option("PATH", options->paths, "Problem files or folders to use instead");
   check_verb->callback([options, &exit_code] { exit_code = check(options->name, options->paths); });
+
+  CLI::App* new_verb = verb->add_subcommand(
+      "new", "Write a solver of your own that works, to start from; prints its files");
+  new_verb->add_option("NAME", options->name, "Letters, digits, '_' and '-'")->required();
+  new_verb->add_option("--language", options->language, "c, c++ or python")->capture_default_str();
+  new_verb->add_option("-o,--output", options->folder, "Folder (default: NAME)");
+  new_verb->callback([options] {
+    make_new(options->name, options->language,
+             options->folder.empty() ? std::filesystem::path(options->name) : options->folder);
+  });
 }
 
 }  // namespace conebench::harness

@@ -73,11 +73,9 @@ int seeds_of(const Plan& plan, int cones) { return plan.quick || cones >= 1000 ?
 
 void solve_each(const Plan& plan, const Problem& problem, Faults& faults,
                 const std::function<void(const Solver&, const Attempt&)>& then) {
-  const Stop stop{.tol = kSurveyTol, .time_limit_s = survey_time_limit_s(problem)};
+  const Stop stop = survey_stop(problem);
   for (const Solver& solver : plan.solvers) {
-    const Attempt tried = attempt(solver, problem, stop);
-    faults.add_if_any(solver, tried, problem, problem.name(), stop);
-    then(solver, tried);
+    then(solver, faults.watched_attempt(solver, problem, problem.name(), stop));
   }
 }
 
@@ -169,8 +167,7 @@ void without_solution(const Plan& plan, Faults& faults) {
       for (const StopTest test : {StopTest::kCommon, StopTest::kOwn}) {
         const Stop stop{.tol = kSurveyTol, .time_limit_s = plan.quick ? 0.1 : 0.3, .test = test};
         for (const Solver& solver : plan.solvers) {
-          const Attempt tried = attempt(solver, problem, stop);
-          faults.add_if_any(solver, tried, problem, problem.name(), stop);
+          const Attempt tried = faults.watched_attempt(solver, problem, problem.name(), stop);
           if (tried.end == Attempt::End::kRefused) continue;
           auto& [runs, claims, own_claims, proofs] = counts[solver.name];
           ++runs;
@@ -207,7 +204,7 @@ void several_solutions(const Plan& plan, Faults& faults) {
         problems::make_backwards(
             {.family = Family::kSeveral, .cones = 3, .dims = allowed, .seed = 5})
             .problem;
-    const Stop stop{.tol = kSurveyTol, .time_limit_s = survey_time_limit_s(problem)};
+    const Stop stop = survey_stop(problem);
     for (const Solver& solver : plan.solvers) {
       std::mt19937_64 random(7);
       std::normal_distribution<double> normal;
@@ -217,8 +214,7 @@ void several_solutions(const Plan& plan, Faults& faults) {
       for (int start = 0; start < kStarts; ++start) {
         Eigen::VectorXd guess(problem.rows());
         for (double& x : guess) x = normal(random);
-        const Attempt tried = attempt(solver, problem, stop, guess);
-        faults.add_if_any(solver, tried, problem, problem.name(), stop);
+        const Attempt tried = faults.watched_attempt(solver, problem, problem.name(), stop, guess);
         if (tried.end == Attempt::End::kRefused) break;
         ++tried_count;
         if (!tried.solved(kSurveyTol)) continue;

@@ -14,9 +14,7 @@ namespace {
 
 using problems::MadeProblem;
 using problems::Problem;
-using problems::Recipe;
 using solvers::Solver;
-using solvers::Status;
 using solvers::Stop;
 
 Problem empty_problem() {
@@ -47,8 +45,8 @@ std::string compare(const Problem& original, const Attempt& first, const Twin& t
 }  // namespace
 
 void odd_problems(const Plan& plan, Faults& faults) {
-  const Recipe large_mu{.mu_low = 5.0, .mu_high = 5.0, .seed = 12};
-  const Recipe tiny_mu{.mu_low = 1e-10, .mu_high = 1e-10, .seed = 13};
+  const problems::Recipe large_mu{.mu_low = 5.0, .mu_high = 5.0, .seed = 12};
+  const problems::Recipe tiny_mu{.mu_low = 1e-10, .mu_high = 1e-10, .seed = 13};
   const Problem dry = problems::make_backwards({.mu_high = 0.4, .seed = 11}).problem;
   const std::vector<std::pair<std::string, Problem>> cases = {
       {"empty", empty_problem()},
@@ -71,11 +69,9 @@ void odd_problems(const Plan& plan, Faults& faults) {
     table.at(solver.name, "NaN guess") = short_answer(tried);
     if (tried.end != Attempt::End::kInputError) faults.add(solver, "NaN guess", "no InputError");
     for (const auto& [name, problem] : cases) {
-      const Stop stop{.tol = kSurveyTol, .time_limit_s = survey_time_limit_s(problem)};
-      const Attempt answer = attempt(solver, problem, stop);
+      const Attempt answer = faults.watched_attempt(solver, problem, name, survey_stop(problem));
       table.at(solver.name, name) = short_answer(answer);
-      faults.add_if_any(solver, answer, problem, name, stop);
-      if (name == unsolvable && answer.status == Status::kConverged) {
+      if (name == unsolvable && answer.status == solvers::Status::kConverged) {
         faults.add(solver, name, "claims to solve it");
       }
     }
@@ -100,13 +96,11 @@ void equivalent_problems(const Plan& plan, Faults& faults) {
   const Stop stop{.tol = kSurveyTol, .time_limit_s = 1.0};
   Table table("method");
   for (const Solver& solver : plan.solvers) {
-    const Attempt first = attempt(solver, original, stop);
-    faults.add_if_any(solver, first, original, "the original", stop);
+    const Attempt first = faults.watched_attempt(solver, original, "the original", stop);
     table.at(solver.name, "original: eta; iterations") =
         short_answer(first) + fmt::format("; {}", first.iterations);
     for (const auto& [name, twin] : twins) {
-      const Attempt second = attempt(solver, twin.problem, stop);
-      faults.add_if_any(solver, second, twin.problem, name, stop);
+      const Attempt second = faults.watched_attempt(solver, twin.problem, name, stop);
       table.at(solver.name, name) = compare(original, first, twin, second);
     }
   }

@@ -4,8 +4,8 @@
 
 namespace conebench::harness {
 
-double survey_time_limit_s(const problems::Problem& problem) {
-  return problem.cone_count() <= 30 ? 1.0 : 5.0;
+solvers::Stop survey_stop(const problems::Problem& problem) {
+  return {.tol = kSurveyTol, .time_limit_s = problem.cone_count() <= 30 ? 1.0 : 5.0};
 }
 
 void Faults::add(const solvers::Solver& solver, const std::string& problem,
@@ -13,11 +13,13 @@ void Faults::add(const solvers::Solver& solver, const std::string& problem,
   lines_.push_back(fmt::format("{} on {}: {}", solver.name, problem, what));
 }
 
-void Faults::add_if_any(const solvers::Solver& solver, const Attempt& tried,
-                        const problems::Problem& problem, const std::string& name,
-                        const solvers::Stop& stop) {
+Attempt Faults::watched_attempt(const solvers::Solver& solver, const problems::Problem& problem,
+                                const std::string& name, const solvers::Stop& stop,
+                                const Eigen::VectorXd& guess) {
+  Attempt tried = attempt(solver, problem, stop, guess);
   const std::string what = fault(tried, problem, stop);
   if (!what.empty()) add(solver, name, what);
+  return tried;
 }
 
 int Faults::print() const {

@@ -15,17 +15,17 @@ struct Plan {
 
 inline constexpr double kSurveyTol = 1e-8;
 
-/// Small problems that are not solved in this time are not solved at all [s].
-double survey_time_limit_s(const problems::Problem& problem);
+/// To kSurveyTol, in a time such that a small problem that needs more is not solved at all.
+solvers::Stop survey_stop(const problems::Problem& problem);
 
 /// What went wrong beyond "not solved"; printed at the end.
 class Faults {
  public:
   void add(const solvers::Solver& solver, const std::string& problem, const std::string& what);
-  /// fault(tried, problem, stop), if any.
-  void add_if_any(const solvers::Solver& solver, const Attempt& tried,
-                  const problems::Problem& problem, const std::string& name,
-                  const solvers::Stop& stop);
+  /// attempt(), whose fault() is added if there is one.
+  Attempt watched_attempt(const solvers::Solver& solver, const problems::Problem& problem,
+                          const std::string& name, const solvers::Stop& stop,
+                          const Eigen::VectorXd& guess = {});
   /// 1 if there are any, else 0.
   int print() const;
 

@@ -2,6 +2,7 @@
 
 #include "harness/small_problems.h"
 #include "problems/problem_file.h"
+#include "results/page_files.h"
 #include "tests/harness/program_test.h"
 
 namespace conebench::harness {
@@ -88,6 +89,18 @@ TEST_F(CommandLineTest, RunsACampaignAndReportsIt) {
   EXPECT_THAT(content(folder_ / "report" / "report.md"), HasSubstr("made-cohesive"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "profile.svg"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "results.csv"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "report" / "report.tex"));
+}
+
+TEST_F(CommandLineTest, NamesTheReportsPage) {
+  if (!results::page_files()) GTEST_SKIP() << "this build has no page";
+  EXPECT_EQ(conebench("run -p problems -s gs --tol 1e-6 --time-limit 2s -o results").code, 0);
+  const Ran report = conebench("report results -o there/page.html --format html");
+  EXPECT_EQ(report.code, 0) << report.err;
+  EXPECT_EQ(report.out, "there/page.html\n");
+  const std::string page = content(folder_ / "there" / "page.html");
+  EXPECT_THAT(page, HasSubstr("Nothing else was run"));
+  EXPECT_THAT(page, HasSubstr("without a geometry"));
 }
 
 TEST_F(CommandLineTest, AFullDiskIsExitCodeThreeWithAMessage) {

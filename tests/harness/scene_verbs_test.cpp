@@ -85,6 +85,31 @@ TEST_F(SceneVerbs, SimulatingSandWritesAllThatIsAskedFor) {
   EXPECT_EQ(picture.find("nan"), std::string::npos);
 }
 
+TEST_F(SceneVerbs, TheHistoryOfSpheresAddsUpToTheSummary) {
+  const Ran ran = conebench("simulate stack --steps 20 -o out --json");
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto summary = nlohmann::json::parse(ran.out);
+  std::istringstream history(content(folder_ / "out" / "history.csv"));
+  std::string line;
+  std::getline(history, line);
+  EXPECT_THAT(line, testing::StartsWith("time_s,cones,bonds,iterations,converged,kinetic_J,"));
+  std::int64_t lines = 0, iterations = 0;
+  std::vector<double> last;
+  while (std::getline(history, line)) {
+    last.clear();
+    std::istringstream fields(line);
+    for (std::string field; std::getline(fields, field, ',');) last.push_back(std::stod(field));
+    ASSERT_EQ(last.size(), 11u) << line;
+    iterations += static_cast<std::int64_t>(last[3]);
+    ++lines;
+  }
+  EXPECT_EQ(lines, 20);
+  EXPECT_EQ(iterations, summary["iterations"]);
+  EXPECT_EQ(last[0], summary["time_s"]);
+  EXPECT_EQ(last[1], summary["cones_last"]);
+  EXPECT_EQ(last[5], summary["energy"]["kinetic_J"]);
+}
+
 TEST_F(SceneVerbs, ARestartedRunGoesOnFromItsCheckpoint) {
   const auto whole = summary_of(kSmall + " --steps 6 -o out --checkpoint-every 4");
   const auto rest = summary_of(kSmall + " --steps 2 --restart out/checkpoint_000004.cbor");
@@ -126,8 +151,7 @@ TEST_F(SceneVerbs, WrongWishesAreOneLineAndExitCodeTwo) {
   expect_usage_error("simulate sand-column --checkpoint-every 2", "expected -o DIR");
   expect_usage_error("simulate sand-column --colour red", "expected fraction or speed");
   expect_usage_error("simulate stack --colour fraction", "expected speed");
-  expect_usage_error("simulate stack -o out --checkpoint-every 2", "no checkpoints");
-  expect_usage_error("simulate stack --restart file.cbor", "no checkpoints");
+  expect_usage_error("simulate stack --restart file.cbor", "expected a checkpoint");
 }
 
 }  // namespace

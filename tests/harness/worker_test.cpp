@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "problems/error.h"
+#include "solvers/registry.h"
 #include "test_solvers.h"
 
 namespace conebench::harness {
@@ -24,12 +25,12 @@ using results::Status;
 using testing::HasSubstr;
 
 Record run(const solvers::Solver& solver, std::uint64_t memory_bytes = 0) {
-  const auto record = run_task({.problem = {.name = "one-contact"},
-                                .load = [] { return one_contact(); },
-                                .solver = solver,
-                                .stop = {.tol = 1e-8, .time_limit_s = 1.0},
-                                .memory_limit_bytes = memory_bytes,
-                                .hard_limit_s = 5.0});
+  const auto record = run_task(
+      {.problems = {{.id = {.name = "one-contact"}, .load = [] { return only(one_contact()); }}},
+       .solver = solver,
+       .stop = {.tol = 1e-8, .time_limit_s = 1.0},
+       .memory_limit_bytes = memory_bytes,
+       .hard_limit_s = 5.0});
   EXPECT_TRUE(record.has_value());
   return *record;
 }
@@ -58,6 +59,41 @@ TEST(Worker, AModelIsJudgedButNotRefuted) {
   const Record record = run(model);
   EXPECT_EQ(record.status, Status::kConverged);
   EXPECT_FALSE(record.solved());
+}
+
+// A contact that slides: what the associated law says of it is not what Coulomb's does.
+Record run_sliding(const solvers::Solver& solver) {
+  const auto load = [] {
+    problems::SparseMatrix W(3, 3);
+    W.setIdentity();
+    return only({problems::ReducedData{W, Eigen::Vector3d(-1.0, 2.0, 0.0)},
+                 {problems::Cone::coulomb(3, 0.5)},
+                 {}});
+  };
+  const auto record = run_task(
+      {.problems = {{.id = {}, .load = load}}, .solver = solver, .stop = {.time_limit_s = 1.0}});
+  EXPECT_TRUE(record.has_value());
+  return *record;
+}
+
+TEST(Worker, AModelOfOursIsJudgedTwice) {
+  const Record gap = run_sliding(solvers::make_solver("ccp"));
+  EXPECT_EQ(gap.kind, "model");
+  EXPECT_EQ(gap.status, Status::kConverged);
+  EXPECT_LE(gap.model_eta, 1e-8);
+  EXPECT_GT(gap.eta, 0.1);
+  EXPECT_FALSE(gap.solved());
+  EXPECT_TRUE(run(solvers::make_solver("pyramid")).solved()) << "sticking inside the pyramid";
+  EXPECT_EQ(run(honest_solver()).model_eta, Record::kUnknown);
+}
+
+TEST(Worker, AModelThatDoesNotSolveItsOwnProblemIsRefuted) {
+  solvers::Solver liar = solver_that("ccp", [](auto&) {});
+  liar.kind = solvers::Kind::kModel;
+  const Record record = run_sliding(liar);
+  EXPECT_EQ(record.status, Status::kRefuted);
+  // At r = 0 the projections of -q = (1, -2) and of -q_hat = (0, -2) on the cone: 1.6 over 0.8.
+  EXPECT_NEAR(record.model_eta, 2.0, 1e-12);
 }
 
 TEST(Worker, NanIsNotFinite) {
@@ -118,10 +154,10 @@ TEST(Worker, AHangIsKilledWithEverythingThatItStarted) {
     }
     for (;;) static_cast<void>(::getppid());  // busy
   };
-  const auto record = run_task({.problem = {},
-                                .load = [] { return one_contact(); },
-                                .solver = solver_that("hang", hang),
-                                .hard_limit_s = 0.5});
+  const auto record =
+      run_task({.problems = {{.id = {}, .load = [] { return only(one_contact()); }}},
+                .solver = solver_that("hang", hang),
+                .hard_limit_s = 0.5});
   ASSERT_TRUE(record.has_value());
   EXPECT_EQ(record->status, Status::kKilledTime);
   EXPECT_GE(record->wall_s, 0.5);
@@ -160,8 +196,9 @@ Record claim_infeasible(const Eigen::VectorXd& y, solvers::Kind kind = solvers::
     result.certificate = y;
     return result;
   };
-  const auto record =
-      run_task({.problem = {}, .load = load, .solver = solver, .stop = {.time_limit_s = 1.0}});
+  const auto record = run_task({.problems = {{.id = {}, .load = [load] { return only(load()); }}},
+                                .solver = solver,
+                                .stop = {.time_limit_s = 1.0}});
   EXPECT_TRUE(record.has_value());
   EXPECT_EQ(record->claimed, "infeasible");
   EXPECT_FALSE(record->solved());
@@ -225,11 +262,13 @@ TEST(Worker, ARefusalIsUnsupportedWithItsReason) {
 }
 
 TEST(Worker, AProblemThatCannotBeLoadedIsAnInputError) {
-  const auto load = []() -> problems::Problem { throw problems::InputError("file.h5", "is gone"); };
-  EXPECT_THROW(
-      run_task(
-          {.problem = {}, .load = load, .solver = honest_solver(), .stop = {.time_limit_s = 1.0}}),
-      problems::InputError);
+  const auto load = []() -> problems::ProblemFile {
+    throw problems::InputError("file.h5", "is gone");
+  };
+  EXPECT_THROW(run_task({.problems = {{.id = {}, .load = load}},
+                         .solver = honest_solver(),
+                         .stop = {.time_limit_s = 1.0}}),
+               problems::InputError);
 }
 
 TEST(Worker, TheHardLimitLeavesRoomToLoadAndToJudge) {

@@ -1,8 +1,9 @@
-#include "harness/where.h"
+#include "harness/condition.h"
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
-#include <vector>
+#include <utility>
 
 #include "problems/error.h"
 #include "problems/suggest.h"
@@ -13,15 +14,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using problems::InputError;
 
-constexpr const char* kSubject = "--where";
-
 bool is_name_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; }
 bool is_name_part(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
 }  // namespace
 
 // kFact and kValue are leaves; kNot has one child, everything else two.
-struct Where::Node {
+struct Condition::Node {
   enum class Kind {
     kOr,
     kAnd,
@@ -44,7 +43,7 @@ struct Where::Node {
 
 namespace {
 
-using Node = Where::Node;
+using Node = Condition::Node;
 using Kind = Node::Kind;
 using Tree = std::unique_ptr<Node>;
 
@@ -56,9 +55,15 @@ Tree branch(Kind kind, Tree left, Tree right = nullptr) {
   return node;
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 class Parser {
  public:
-  explicit Parser(std::string_view text) : text_(text) {}
+  Parser(std::string_view text, const Condition::Terms& terms) : text_(text), terms_(terms) {}
 
   Tree parse() {
     Tree tree = disjunction();
@@ -71,8 +76,8 @@ class Parser {
   [[noreturn]] void fail(const std::string& expected) const {
     const std::string rest =
         at_ < text_.size() ? "at '" + std::string(text_.substr(at_)) + "'" : "at its end";
-    throw InputError(kSubject, "'" + std::string(text_) + "' is not understood " + rest +
-                                   ", expected " + expected);
+    throw InputError(terms_.option, "'" + std::string(text_) + "' is not understood " + rest +
+                                        ", expected " + expected);
   }
 
   void skip_space() {
@@ -129,9 +134,11 @@ class Parser {
     return left;
   }
 
+  std::string an_operand() const { return "a " + terms_.noun + ", a number or a text in quotes"; }
+
   Tree operand() {
     skip_space();
-    if (at_ == text_.size()) fail("a fact, a number or a text in quotes");
+    if (at_ == text_.size()) fail(an_operand());
     const char first = text_[at_];
     if (first == '"' || first == '\'') return quoted(first);
     if (is_name_start(first)) return name();
@@ -146,14 +153,30 @@ class Parser {
     return node;
   }
 
-  Tree name() {
+  std::string word() {
     const std::size_t first = at_;
     while (at_ < text_.size() && is_name_part(text_[at_])) ++at_;
-    const std::string word(text_.substr(first, at_ - first));
-    if (word == "true" || word == "false") return value(word == "true");
+    return std::string(text_.substr(first, at_ - first));
+  }
+
+  Tree name() {
+    const std::size_t first = at_;
+    std::string name = word();
+    if (name == "true" || name == "false") return value(name == "true");
+    if (take("(")) {
+      skip_space();
+      name += "(" + word() + ")";
+      if (!take(")")) fail("')'");
+    }
+    const bool known = terms_.names.empty() || std::ranges::count(terms_.names, name) > 0;
+    if (!known) {
+      at_ = first;
+      fail("a " + terms_.noun + problems::suggestion(name, terms_.names) +
+           "; known: " + joined(terms_.names));
+    }
     auto node = std::make_unique<Node>();
     node->kind = Kind::kFact;
-    node->name = word;
+    node->name = name;
     return node;
   }
 
@@ -161,7 +184,7 @@ class Parser {
     double parsed = 0.0;
     const char* end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data() + at_, end, parsed);
-    if (error != std::errc()) fail("a fact, a number or a text in quotes");
+    if (error != std::errc()) fail(an_operand());
     at_ = static_cast<std::size_t>(stop - text_.data());
     return value(parsed);
   }
@@ -175,24 +198,61 @@ class Parser {
   static constexpr int kDeepest = 100;
 
   std::string_view text_;
+  const Condition::Terms& terms_;
   std::size_t at_ = 0;
   int depth_ = 0;
 };
 
-const Json& evaluate_leaf(const Node& node, const Json& facts) {
-  if (node.kind == Kind::kValue) return node.value;
-  const auto found = facts.find(node.name);
-  if (found != facts.end()) return *found;
-  std::vector<std::string> known;
-  for (const auto& [key, value] : facts.items()) known.push_back(key);
-  throw InputError(kSubject, "'" + node.name + "' is no fact of a problem" +
-                                 problems::suggestion(node.name, known));
-}
+class Evaluation {
+ public:
+  Evaluation(const Condition::Terms& terms, const Json& facts) : terms_(terms), facts_(facts) {}
 
-bool compare(Kind kind, const Json& left, const Json& right) {
-  if (left.is_null() || right.is_null()) return kind == Kind::kUnequal;
-  if (left.is_number() && right.is_number()) {
-    const double a = left.get<double>(), b = right.get<double>();
+  bool operator()(const Node& node) const {
+    switch (node.kind) {
+      case Kind::kOr:
+        return (*this)(*node.left) || (*this)(*node.right);
+      case Kind::kAnd:
+        return (*this)(*node.left) && (*this)(*node.right);
+      case Kind::kNot:
+        return !(*this)(*node.left);
+      case Kind::kFact:
+      case Kind::kValue: {
+        const Json& value = leaf(node);
+        if (value.is_boolean()) return value.get<bool>();
+        throw InputError(terms_.option,
+                         value.dump() + " is neither true nor false, expected a comparison");
+      }
+      default:
+        return compare(node.kind, leaf(*node.left), leaf(*node.right));
+    }
+  }
+
+ private:
+  const Json& leaf(const Node& node) const {
+    if (node.kind == Kind::kValue) return node.value;
+    const auto found = facts_.find(node.name);
+    if (found != facts_.end()) return *found;
+    std::vector<std::string> known;
+    for (const auto& [key, value] : facts_.items()) known.push_back(key);
+    throw InputError(terms_.option, "'" + node.name + "' is no " + terms_.noun +
+                                        problems::suggestion(node.name, known));
+  }
+
+  bool compare(Kind kind, const Json& left, const Json& right) const {
+    if (left.is_null() || right.is_null()) return kind == Kind::kUnequal;
+    if (left.is_number() && right.is_number()) {
+      return compare_numbers(kind, left.get<double>(), right.get<double>());
+    }
+    const bool comparable = left.type() == right.type() && (left.is_string() || left.is_boolean());
+    if (!comparable || (kind != Kind::kEqual && kind != Kind::kUnequal)) {
+      throw InputError(terms_.option, left.dump() + " and " + right.dump() +
+                                          " do not compare that way, expected two numbers, or == "
+                                          "or != between two texts");
+    }
+    return (left == right) == (kind == Kind::kEqual);
+  }
+
+  static bool compare_numbers(Kind kind, double a, double b) {
     switch (kind) {
       case Kind::kEqual:
         return a == b;
@@ -208,42 +268,18 @@ bool compare(Kind kind, const Json& left, const Json& right) {
         return a >= b;
     }
   }
-  const bool comparable = left.type() == right.type() && (left.is_string() || left.is_boolean());
-  if (!comparable || (kind != Kind::kEqual && kind != Kind::kUnequal)) {
-    throw InputError(kSubject, left.dump() + " and " + right.dump() +
-                                   " do not compare that way, expected two numbers, or == or != "
-                                   "between two texts");
-  }
-  return (left == right) == (kind == Kind::kEqual);
-}
 
-bool evaluate(const Node& node, const Json& facts) {
-  switch (node.kind) {
-    case Kind::kOr:
-      return evaluate(*node.left, facts) || evaluate(*node.right, facts);
-    case Kind::kAnd:
-      return evaluate(*node.left, facts) && evaluate(*node.right, facts);
-    case Kind::kNot:
-      return !evaluate(*node.left, facts);
-    case Kind::kFact:
-    case Kind::kValue: {
-      const Json& value = evaluate_leaf(node, facts);
-      if (value.is_boolean()) return value.get<bool>();
-      throw InputError(kSubject,
-                       value.dump() + " is neither true nor false, expected a comparison");
-    }
-    default:
-      return compare(node.kind, evaluate_leaf(*node.left, facts),
-                     evaluate_leaf(*node.right, facts));
-  }
-}
+  const Condition::Terms& terms_;
+  const Json& facts_;
+};
 
 }  // namespace
 
-Where::Where(std::string_view expression) : root_(Parser(expression).parse()) {}
-Where::~Where() = default;
-Where::Where(Where&&) noexcept = default;
+Condition::Condition(std::string_view expression, Terms terms)
+    : terms_(std::move(terms)), root_(Parser(expression, terms_).parse()) {}
+Condition::~Condition() = default;
+Condition::Condition(Condition&&) noexcept = default;
 
-bool Where::matches(const Json& facts) const { return evaluate(*root_, facts); }
+bool Condition::matches(const Json& facts) const { return Evaluation(terms_, facts)(*root_); }
 
 }  // namespace conebench::harness

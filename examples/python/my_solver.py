@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""A solver in another language: projected Gauss-Seidel in numpy, with a dense W.
+"""my_solver: projected Gauss-Seidel in numpy, with a dense W.
 
-    conebench solve FILE -s exec:examples/external_solver.py
+    conebench solve FILE -s "exec:my_solver.py[omega=1.3]"
 
 Find r with u = W r + q and, in every cone i, K_mu* containing u + theta |u_t| e_n, orthogonal to
-r in K_mu. Component 0 of a cone is its normal. README.md beside this file states the protocol.
+r in K_mu. Component 0 of a cone is its normal. A sweep does, for each cone i in order,
+
+    r_i <- P_K(r_i - (omega / lambda_i) (u_i + theta_i |u_it| e_n)),   lambda_i = |W_ii|.
+
+Replace it by something better. docs/add-a-solver.md of conebench states the protocol.
 """
 import argparse
 import sys
@@ -35,7 +39,7 @@ def delassus(problem):
 def project(x, mu):
     """The point of K_mu = {|x_t| <= mu x_n} nearest to x."""
     tangent = np.linalg.norm(x[1:])
-    if tangent <= mu * x[0]:
+    if x[0] >= 0 and tangent <= mu * x[0]:
         return x
     if mu * tangent <= -x[0]:
         return np.zeros_like(x)
@@ -45,34 +49,37 @@ def project(x, mu):
 
 class Cones:
     def __init__(self, problem, W):
+        """Rows, mu, theta and lambda (`size`) of every cone."""
         self.mu, self.theta = problem["mu"][()], problem["theta"][()]
         ends = np.cumsum(problem["dim"][()])
         self.rows = [slice(a, b) for a, b in zip(np.concatenate([[0], ends]), ends)]
         size = np.array([np.linalg.norm(W[at, at], 2) for at in self.rows])
         self.size = np.maximum(size, 1e-12 * size.max(initial=0.0))
 
-    def stepped(self, i, r, u):
+    def stepped(self, i, r, u, omega):
         """Where one projection takes r_i, for a given u_i."""
         u_hat = u.copy()
         u_hat[0] += self.theta[i] * np.linalg.norm(u[1:])
-        return project(r - u_hat / self.size[i], self.mu[i])
+        return project(r - omega * u_hat / self.size[i], self.mu[i])
 
     def eta(self, r, u, rate_scale):
         """The residual that the answer is judged by."""
-        steps = [self.size[i] * np.linalg.norm(r[at] - self.stepped(i, r[at], u[at]))
+        steps = [self.size[i] * np.linalg.norm(r[at] - self.stepped(i, r[at], u[at], 1.0))
                  for i, at in enumerate(self.rows)]
         return max(steps, default=0.0) / rate_scale
 
 
-def solve(W, q, cones, rate_scale, r, tol, deadline):
-    """Returns r and whether eta(r) <= tol."""
+def solve(W, q, cones, rate_scale, r, omega, tol, deadline):
+    """Returns r, the number of sweeps, and whether eta(r) <= tol."""
+    sweeps = 0
     while True:
         if cones.eta(r, W @ r + q, rate_scale) <= tol:
-            return r, True
+            return r, sweeps, True
         if time.monotonic() > deadline:
-            return r, False
+            return r, sweeps, False
         for i, at in enumerate(cones.rows):
-            r[at] = cones.stepped(i, r[at], W[at] @ r + q[at])
+            r[at] = cones.stepped(i, r[at], W[at] @ r + q[at], omega)
+        sweeps += 1
 
 
 def main():
@@ -81,6 +88,7 @@ def main():
     parser.add_argument("solution")
     parser.add_argument("--tol", type=float, required=True)
     parser.add_argument("--time-limit", type=float, required=True, help="seconds, or inf")
+    parser.add_argument("--omega", type=float, default=1.0, help="relaxation of a step [-]")
     args = parser.parse_args()
     deadline = time.monotonic() + 0.8 * args.time_limit - 0.5  # time to start, and to write
 
@@ -88,9 +96,10 @@ def main():
         W, q = delassus(file["problem"])
         cones = Cones(file["problem"], W)
         r, rate_scale = file["guess/r"][()], file.attrs["rate_scale"]
-    r, converged = solve(W, q, cones, rate_scale or 1.0, r, args.tol, deadline)
+    r, sweeps, converged = solve(W, q, cones, rate_scale or 1.0, r, args.omega, args.tol, deadline)
     with h5py.File(args.solution, "w") as file:
         file["solution/r"] = r
+        file["solution"].attrs["iterations"] = sweeps
     return 0 if converged else 1
 
 

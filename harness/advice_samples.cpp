@@ -1,0 +1,119 @@
+#include "harness/advice_samples.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "harness/engine.h"
+#include "harness/interrupt.h"
+#include "problems/error.h"
+#include "problems/load.h"
+#include "problems/private_folder.h"
+
+namespace conebench::harness {
+namespace {
+
+constexpr std::size_t kWindows = 8;
+
+struct LoadedStep {
+  Sample sample;
+  std::string hash;
+};
+
+LoadedStep load(const std::filesystem::path& path) {
+  problems::ProblemFile file = problems::load_problem(path);
+  LoadedStep step{{file.problem.shifted(), std::move(file.guess)},
+                  problems::content_sha256(file.problem)};
+  if (step.sample.guess.size() == 0) {
+    step.sample.guess = Eigen::VectorXd::Zero(step.sample.standard.rows());
+  }
+  return step;
+}
+
+std::vector<LoadedStep> run_and_sample(const engine::SceneText& scene, std::int64_t count,
+                                       double most_s) {
+  const problems::PrivateFolder folder;
+  const std::unique_ptr<Engine> engine = make_engine(scene, {});
+  engine->export_to(folder.path(), engine::parse_selection(fmt::format("reservoir:{}", count)));
+  const auto start = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> limit(most_s);
+  while (!engine->finished() && !interrupted()) {
+    engine->step();
+    if (std::chrono::steady_clock::now() - start > limit) break;
+  }
+  std::vector<LoadedStep> steps;
+  for (const std::filesystem::path& file : engine->finish_export().files) {
+    steps.push_back(load(file));
+  }
+  return steps;
+}
+
+// Every second window of consecutive steps is for judging.
+void split_by_windows(std::vector<LoadedStep> steps, AdviceSamples& samples) {
+  const std::size_t length = std::max<std::size_t>(1, steps.size() / kWindows);
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    auto& side = k / length % 2 == 0 ? samples.training : samples.validation;
+    side.push_back(std::move(steps[k].sample));
+  }
+}
+
+std::string with_seed(std::int64_t seed) { return fmt::format("seed={}", seed); }
+
+}  // namespace
+
+AdviceSamples sample_scene(const engine::SceneText& scene, std::int64_t count, double most_s) {
+  const EngineKind& kind = engine_of(scene);
+  const engine::SceneHeader header = kind.read(scene);
+  AdviceSamples samples;
+  samples.scene = header.name;
+  samples.by_islands = kind.name == "dem";
+  samples.fallback_limit_s = header.solver.time_limit_s;
+  std::vector<LoadedStep> first = run_and_sample(scene, count, most_s);
+  problems::require(!first.empty(), scene.subject, "no step had a contact, expected some");
+
+  const std::vector<std::string> next = {with_seed(header.seed + 1)};
+  std::set<std::string> seen;
+  for (const LoadedStep& step : first) seen.insert(step.hash);
+  for (LoadedStep& step : run_and_sample(engine::with_overrides(scene, next), count, most_s)) {
+    if (!seen.contains(step.hash)) samples.validation.push_back(std::move(step.sample));
+  }
+  if (2 * samples.validation.size() >= first.size()) {
+    for (LoadedStep& step : first) samples.training.push_back(std::move(step.sample));
+    samples.source =
+        fmt::format("seed {} to choose, seed {} to judge", header.seed, header.seed + 1);
+    return samples;
+  }
+  problems::require(first.size() >= 2, scene.subject, "one step had contacts, expected two");
+  samples.validation.clear();
+  split_by_windows(std::move(first), samples);
+  samples.source = "windows of one run in turn to choose and to judge: the seed changes nothing";
+  return samples;
+}
+
+AdviceSamples sample_problems(const std::vector<std::filesystem::path>& paths) {
+  AdviceSamples samples;
+  std::vector<LoadedStep> steps;
+  std::set<std::string> seen;
+  for (const std::filesystem::path& file : problems::find_problems(paths).files) {
+    LoadedStep step = load(file);
+    if (seen.insert(step.hash).second) steps.push_back(std::move(step));
+  }
+  problems::require(steps.size() >= 2, paths.front().string(), "holds ", steps.size(),
+                    " problems, expected at least two: some to choose on, some to judge on");
+  const auto place = [](const LoadedStep& step) {
+    const problems::Metadata& metadata = step.sample.standard.metadata();
+    return std::pair(metadata.scene, metadata.step);
+  };
+  std::ranges::stable_sort(steps, {}, place);
+  samples.scene = paths.front().string();
+  samples.by_islands = std::ranges::all_of(steps, [](const LoadedStep& step) {
+    return step.sample.standard.metadata().engine == "dem";
+  });
+  samples.source = "windows of the steps in turn to choose and to judge";
+  split_by_windows(std::move(steps), samples);
+  return samples;
+}
+
+}  // namespace conebench::harness

@@ -1,0 +1,5 @@
+#include <stdlib.h>
+
+#include "planted.h"
+
+PLANTED_SOLVE { abort(); }

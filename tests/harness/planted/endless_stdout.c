@@ -1,0 +1,10 @@
+#include <stdio.h>
+
+#include "planted.h"
+
+PLANTED_SOLVE {
+  for (;;) {
+    puts("{\"records\": []}");
+    fputs("and no end of it\n", stderr);
+  }
+}

@@ -1,0 +1,7 @@
+#include <unistd.h>
+
+#include "planted.h"
+
+PLANTED_SOLVE {
+  for (;;) pause();
+}

@@ -1,0 +1,3 @@
+#include "planted.h"
+
+PLANTED_SOLVE { PLANTED_ANSWER(99); }
