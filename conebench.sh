@@ -9,10 +9,15 @@ set -euo pipefail
 
 here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 build="$here/build"
-packages=(g++ cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libfmt-dev libcli11-dev
-  libtomlplusplus-dev nlohmann-json3-dev libssl-dev libsuitesparse-dev coinor-libipopt-dev
+packages=(g++ make cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libfmt-dev libcli11-dev
+  libtomlplusplus-dev nlohmann-json3-dev libssl-dev libsqlitecpp-dev zlib1g-dev
+  libsuitesparse-dev coinor-libipopt-dev libbullet-dev
   libnlopt-dev libsiconos-numerics-dev libbenchmark-dev libgtest-dev libgmock-dev libfclib-dev
   python3 python3-h5py)
+# For the report's page, unless they came another way.
+command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
+# The browser that tests that page.
+[ "${1:-}" = test ] && packages+=(chromium)
 
 say() { echo "conebench.sh: $*" >&2; }
 

@@ -1,17 +1,28 @@
 # Debian 12 packages; conebench.sh lists their names. Each becomes one target.
 find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(SQLiteCpp REQUIRED)
+find_package(ZLIB REQUIRED)
 pkg_check_modules(hdf5 REQUIRED IMPORTED_TARGET hdf5-serial)
 pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
-if(CONEBENCH_BENCHMARKS)
-  find_package(benchmark REQUIRED)
-endif()
+find_package(benchmark REQUIRED)
 find_package(NLopt REQUIRED)
 pkg_check_modules(ipopt REQUIRED IMPORTED_TARGET ipopt)
+
+# Of Bullet the collision library alone, in doubles.
+pkg_check_modules(bullet REQUIRED bullet-float64)
+add_library(conebench_bullet INTERFACE)
+target_include_directories(conebench_bullet SYSTEM INTERFACE ${bullet_INCLUDE_DIRS})
+target_compile_options(conebench_bullet INTERFACE ${bullet_CFLAGS_OTHER})
+foreach(name BulletCollision LinearMath)
+  find_library(BULLET_${name} ${name}-float64 HINTS ${bullet_LIBRARY_DIRS} REQUIRED)
+  target_link_libraries(conebench_bullet INTERFACE ${BULLET_${name}})
+endforeach()
 
 # The parts of SuiteSparse that are GPL: supernodal CHOLMOD, UMFPACK, SPQR. Without them Eigen's own
 # sparse factorisations serve.

@@ -1,4 +1,5 @@
 """What the scripts of this folder share."""
+import csv
 import json
 import pathlib
 import platform
@@ -23,3 +24,20 @@ def machine():
 
 def shown(value):
     return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def write_rows(path, names, rows):
+    """Writes a CSV of dictionaries as they come, so that a stopped run leaves what it had."""
+    with open(path, "w", newline="") as file:
+        writer = csv.DictWriter(file, names)
+        writer.writeheader()
+        for row in rows:
+            writer.writerow(row)
+            file.flush()
+
+
+def read_rows(path):
+    """The rows of a CSV of numbers."""
+    with open(path) as file:
+        return [{name: float(value) for name, value in row.items()}
+                for row in csv.DictReader(file)]

@@ -28,6 +28,16 @@ def simulate(program, scene, folder, settings, frames=2, colour="fraction", step
     return json.loads(done.read_text())
 
 
+def balls(count):
+    """A cubic column of about `count` balls of 7 to 10 mm, its walls around it."""
+    side = 0.02 * max(2, round(count ** (1 / 3)))
+    half = f"{0.5 * side:g}"
+    walls = {"planes[1].point_m[0]": f"-{half}", "planes[2].point_m[0]": half,
+             "planes[3].point_m[1]": f"-{half}", "planes[4].point_m[1]": half}
+    return walls | {"columns[0].width_m": f"{side:g}", "columns[0].height_m": f"{side:g}",
+                    "beds[0].width_m": f"{2 * side:g}"}
+
+
 def history(folder):
     """The columns of history.csv, as {name: [numbers]}."""
     with open(pathlib.Path(folder) / "history.csv") as file:
@@ -35,12 +45,28 @@ def history(folder):
     return {name: [float(row[name]) for row in rows] for name in rows[0]}
 
 
+def numbers_of(file, array):
+    """An array of a ParaView file, as one list."""
+    data = xml.etree.ElementTree.parse(file).find(f".//DataArray[@Name='{array}']")
+    return [float(x) for x in data.text.split()]
+
+
+def points_of(file):
+    """The places of the points of a ParaView file, [(x, y, z)]."""
+    numbers = numbers_of(file, "points")
+    return list(zip(numbers[0::3], numbers[1::3], numbers[2::3]))
+
+
 def last_positions(folder):
     """Particle positions of the last written step, [(x, y, z)]."""
-    newest = sorted(pathlib.Path(folder).glob("particles_*.vtp"))[-1]
-    points = xml.etree.ElementTree.parse(newest).find(".//Points/DataArray").text.split()
-    numbers = [float(x) for x in points]
-    return list(zip(numbers[0::3], numbers[1::3], numbers[2::3]))
+    return points_of(sorted(pathlib.Path(folder).glob("particles_*.vtp"))[-1])
+
+
+def sphere_files(folder):
+    """What the DEM engine wrote of its spheres, [(time, file)]."""
+    folder = pathlib.Path(folder)
+    sets = xml.etree.ElementTree.parse(folder / "spheres.pvd").iter("DataSet")
+    return [(float(s.get("timestep")), folder / s.get("file")) for s in sets]
 
 
 def last_frame(folder):
