@@ -92,6 +92,7 @@ void add_verbs(CLI::App& program, int& exit_code) {
   add_report(program, exit_code);
   add_compare(program, exit_code);
   add_advise(program, exit_code);
+  add_study(program, exit_code);
   add_doctor(program, exit_code);
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "dem/export.h"
+#include "dem/heap.h"
 #include "dem/simulation.h"
 #include "dem/svg_frame.h"
 #include "dem/vtk_writer.h"
@@ -71,6 +72,11 @@ class DemEngine : public Engine {
     return simulation_.summary().unconverged_steps;
   }
 
+  Snapshot snapshot() const override;
+  void observe(std::function<void(const engine::SolvedStep&)> look) override {
+    simulation_.add_observer([look = std::move(look)](const dem::StepView& view) { look(view); });
+  }
+
   void write_output(const std::filesystem::path& folder, std::int64_t stride) override {
     vtk_.emplace(folder, scene().step_s, simulation_.placement(), stride);
     simulation_.add_observer(std::ref(*vtk_));
@@ -114,6 +120,19 @@ class DemEngine : public Engine {
   std::optional<dem::Exporter> exporter_;
   std::vector<dem::Frame> frames_;
 };
+
+Snapshot DemEngine::snapshot() const {
+  const dem::Summary& summary = simulation_.summary();
+  const dem::EnergyLedger& energy = simulation_.energy();
+  Snapshot out{.heap = dem::heap_of(simulation_),
+               .energy_J = energy.kinetic_J + energy.potential_J,
+               .iterations = summary.iterations,
+               .solve_s = summary.solve_s};
+  double radii = 0.0;
+  for (const engine::Grain& grain : out.heap.grains) radii += grain.radius;
+  out.penetration = summary.deepest_overlap_m * static_cast<double>(out.heap.grains.size()) / radii;
+  return out;
+}
 
 nlohmann::json DemEngine::summary() const {
   const dem::Summary& summary = simulation_.summary();

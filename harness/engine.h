@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "problems/engine/exporter.h"
+#include "problems/engine/heap.h"
 #include "problems/engine/scene_file.h"
 #include "problems/engine/step_selection.h"
 
@@ -28,6 +30,18 @@ struct Exported {
   engine::ExportCost cost;
 };
 
+/// What the physics of a run has come to, measured alike in both engines.
+struct Snapshot {
+  engine::Heap heap;
+  double energy_J = 0.0;  ///< kinetic and potential, of all that moves freely; mpm 2D: per metre
+  /// How far matter is inside matter [-]. dem: the deepest overlap of all steps, over the mean
+  /// radius. mpm: by how much the densest node of all steps is fuller than phi_max, or than it was
+  /// at the start where that is more, over phi_max.
+  double penetration = 0.0;
+  std::int64_t iterations = 0;  ///< of the step solver
+  double solve_s = 0.0;         ///< wall clock in the step solver
+};
+
 /// A running scene of either engine, as the verbs see it.
 ///
 /// Errors: InputError, OutputError and std::runtime_error as the engines and their writers say.
@@ -41,6 +55,10 @@ class Engine {
   virtual double time_s() const = 0;
   virtual bool finished() const = 0;  ///< the scene's duration is reached
   virtual std::int64_t unconverged_steps() const = 0;
+
+  virtual Snapshot snapshot() const = 0;
+  /// From now on `look` is called after every step.
+  virtual void observe(std::function<void(const engine::SolvedStep&)> look) = 0;
 
   /// From now on every `stride`-th step is written to the folder for ParaView, and every step to
   /// history.csv (mpm); finish_output() ends that.

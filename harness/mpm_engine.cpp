@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "harness/engine.h"
 #include "harness/mpm_history.h"
 #include "harness/step_solver.h"
 #include "mpm/export.h"
+#include "mpm/heap.h"
 #include "mpm/simulation.h"
 #include "mpm/svg_frame.h"
 #include "mpm/vtk_writer.h"
@@ -25,7 +27,9 @@ mpm::ColourBy parse_colour(const std::string& word) {
 class MpmEngine : public Engine {
  public:
   MpmEngine(const mpm::Scene& scene, const engine::SolverChoice& solver, mpm::ColourBy colour)
-      : solver_(solver), colour_(colour), simulation_(scene, make_step_solver(solver)) {}
+      : solver_(solver), colour_(colour), simulation_(scene, make_step_solver(solver)) {
+    simulation_.add_observer([this](const mpm::StepView& view) { watch_density(view); });
+  }
 
   const engine::SceneHeader& scene() const override { return simulation_.scene(); }
   void step() override { simulation_.step(); }
@@ -34,6 +38,11 @@ class MpmEngine : public Engine {
   bool finished() const override { return simulation_.finished(); }
   std::int64_t unconverged_steps() const override {
     return simulation_.summary().unconverged_steps;
+  }
+
+  Snapshot snapshot() const override;
+  void observe(std::function<void(const engine::SolvedStep&)> look) override {
+    simulation_.add_observer([look = std::move(look)](const mpm::StepView& view) { look(view); });
   }
 
   void write_output(const std::filesystem::path& folder, std::int64_t stride) override {
@@ -71,14 +80,33 @@ class MpmEngine : public Engine {
   void restart(const std::filesystem::path& path) override { simulation_.restart(path); }
 
  private:
+  // Nodes of the first step are as full as the scene made them.
+  void watch_density(const mpm::StepView& view) {
+    const double share = mpm::overfull_share(*view.scene, *view.nodes);
+    if (!first_overfull_) first_overfull_ = std::max(share, 0.0);
+    most_overfull_ = std::max(most_overfull_, share);
+  }
+
   engine::SolverChoice solver_;
   mpm::ColourBy colour_;
   mpm::Simulation simulation_;
+  std::optional<double> first_overfull_;
+  double most_overfull_ = 0.0;
   std::optional<mpm::VtkWriter> vtk_;
   std::optional<MpmHistory> history_;
   std::optional<mpm::Exporter> exporter_;
   std::vector<mpm::Frame> frames_;
 };
+
+Snapshot MpmEngine::snapshot() const {
+  const mpm::Summary& summary = simulation_.summary();
+  const mpm::State state = simulation_.state();
+  return {.heap = mpm::heap_of(simulation_),
+          .energy_J = state.kinetic_J + state.potential_J,
+          .penetration = most_overfull_ - first_overfull_.value_or(0.0),
+          .iterations = summary.iterations,
+          .solve_s = summary.solve_s};
+}
 
 nlohmann::json MpmEngine::summary() const {
   const mpm::Summary& summary = simulation_.summary();

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <span>
-#include <string_view>
 #include <vector>
 
+#include "results/line_file.h"
 #include "results/record.h"
 
 namespace conebench::results {
@@ -34,35 +33,23 @@ JournalContent read_journal(const std::filesystem::path& path);
 /// the later record.
 JournalContent read_results(const std::filesystem::path& results_dir);
 
-/// Appends records to a journal, one JSON line each. A record is with the system when append()
-/// returns, so that no kill of this process can lose it, and on disk within kFlush_s of the next
-/// call of append() or flush_if_due(), so that a power loss costs at most the last kFlush_s. Holds
-/// a lock, so that two campaigns never write to one journal.
+/// Appends records to a journal, one JSON line each; as safe as results/line_file.h says.
 class Journal {
  public:
-  static constexpr double kFlush_s = 0.1;
+  static constexpr double kFlush_s = LineFile::kFlush_s;
 
   /// Opens or creates the journal; terminates a torn last line. Throws problems::OutputError when
   /// the place is not writable or another process holds the lock.
-  explicit Journal(const std::filesystem::path& path);
-  ~Journal();  ///< flushes
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+  explicit Journal(const std::filesystem::path& path) : file_(path) {}
 
   /// The records of one task: all of their lines or, with problems::OutputError (disk full), none.
   void append(std::span<const Record> records);
   void append(const Record& record) { append(std::span(&record, 1)); }
   /// Syncs to disk what has waited for kFlush_s. Throws problems::OutputError.
-  void flush_if_due();
+  void flush_if_due() { file_.flush_if_due(); }
 
  private:
-  void write_lines(std::string_view lines);
-  void flush();
-
-  std::filesystem::path path_;
-  int fd_ = -1;
-  bool unsynced_ = false;
-  std::chrono::steady_clock::time_point waiting_since_{};
+  LineFile file_;
 };
 
 }  // namespace conebench::results

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "results/text.h"
 
@@ -47,8 +48,12 @@ double tick_step(double width, bool whole) {
   return step;
 }
 
-// A tick is a round number: no more digits than it needs.
-std::string tick_label(Quantity quantity, double value) {
+// A tick is a round number: no more digits than it needs, and enough to differ from the next.
+std::string tick_label(Quantity quantity, double value, double step) {
+  if (quantity == Quantity::kRatio && value != 0.0) {
+    const double digits = std::floor(std::log10(std::abs(value))) - std::floor(std::log10(step));
+    return fmt::format("{:.{}g}", value, std::clamp(static_cast<int>(digits) + 2, 3, 15));
+  }
   if (quantity != Quantity::kTime) return format_value(quantity, value);
   if (value < 0.9995e-6) return fmt::format("{:.3g} ns", value * 1e9);
   if (value < 0.9995e-3) return fmt::format("{:.3g} us", value * 1e6);
@@ -79,10 +84,11 @@ std::vector<Tick> ticks(const Axis& axis) {
   const double step = tick_step(to - from, axis.scale != Scale::kLinear);
   for (double at = std::ceil(from / step - 1e-9) * step; at <= to + 1e-9 * step; at += step) {
     const double value = unscaled(axis.scale, std::abs(at) < 1e-9 * step ? 0.0 : at);
-    labels.push_back({value, tick_label(axis.quantity, value)});
+    const double apart = axis.scale == Scale::kLinear ? step : std::abs(value);
+    labels.push_back({value, tick_label(axis.quantity, value, apart)});
     if (!one_decade) continue;
     for (const double part : {2.0 * value, 5.0 * value}) {
-      if (part < axis.high) labels.push_back({part, tick_label(axis.quantity, part)});
+      if (part < axis.high) labels.push_back({part, tick_label(axis.quantity, part, part)});
     }
   }
   return labels;
@@ -124,6 +130,22 @@ std::vector<PlotPoint> points_of(std::span<const Step> steps, const Axis& x, con
     if (step.value <= x.high) points.push_back({.x = step.value, .y = step.share});
   }
   return thinned(std::move(points), x, y);
+}
+
+Axis linear_axis(std::string label, Quantity quantity, std::span<const double> values) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const double value : values) {
+    if (!std::isfinite(value)) continue;
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  if (low > high) low = 0.0, high = 1.0;
+  constexpr double kRoom = 0.08;
+  const double width = high - low;
+  // Rounding of equal values is no range to show.
+  const double alone = high != 0.0 ? kRoom * std::abs(high) : 1.0;
+  const double room = width > 1e-9 * std::abs(high) ? kRoom * width : alone;
+  return {.label = std::move(label), .quantity = quantity, .low = low - room, .high = high + room};
 }
 
 Axis log_axis(std::string label, Quantity quantity, std::span<const double> values) {

@@ -37,7 +37,14 @@ struct Axis {
 
 struct PlotPoint {
   double x = 0.0, y = 0.0;
-  std::optional<Interval> x_interval{};
+  std::optional<Interval> x_interval{};  ///< of Mark::kDots
+  std::optional<Interval> y_interval{};  ///< of Mark::kLines
+};
+
+/// What a plot's values are held against: a grey band from side to side.
+struct Band {
+  Interval range{};
+  std::string name{};  ///< in the legend
 };
 
 /// One solver's curve, or dots.
@@ -62,6 +69,7 @@ struct Plot {
   std::string reading{};  ///< how to read it, a sentence or two
   Mark mark = Mark::kSteps;
   Axis x{}, y{};
+  std::optional<Band> band{};  ///< along y; SVG draws it
   std::vector<Series> series{};
 };
 
@@ -81,6 +89,9 @@ std::vector<PlotPoint> thinned(std::vector<PlotPoint> points, const Axis& x, con
 
 /// Points of a distribution, thinned.
 std::vector<PlotPoint> points_of(std::span<const Step> steps, const Axis& x, const Axis& y);
+
+/// An axis from somewhat below the finite values to somewhat above them; [0, 1] for none.
+Axis linear_axis(std::string label, Quantity quantity, std::span<const double> values);
 
 /// An axis from a power of ten to a power of ten around finite values > 0; [1e-3, 1] for none.
 Axis log_axis(std::string label, Quantity quantity, std::span<const double> values);

@@ -13,7 +13,8 @@ constexpr double kLegendGap = 24, kLegendStep = 22, kCharacter = 7.2;
 constexpr double kDotRadius = 5;
 
 constexpr auto kFileStyle =
-    "<style>.panel{fill:#fff}.grid{stroke:#d9d9d9}.frame{stroke:#595959;fill:none}"
+    "<style>.panel{fill:#fff}.band{fill:#000;fill-opacity:.1}.grid{stroke:#d9d9d9}.frame{stroke:#"
+    "595959;fill:none}"
     ".c{fill:none;stroke-width:2.2}"
     ".s0{stroke:#0072b2;color:#0072b2}.s1{stroke:#d55e00;color:#d55e00}"
     ".s2{stroke:#009e73;color:#009e73}.s3{stroke:#cc79a7;color:#cc79a7}"
@@ -99,6 +100,10 @@ std::string steps(const Canvas& c, const Series& series) {
 std::string lines(const Canvas& c, const Series& series) {
   std::string path, dots;
   for (const PlotPoint& p : series.points) {
+    if (p.y_interval) {
+      dots += line(c.x(p.x), c.y(p.y_interval->low), c.x(p.x), c.y(p.y_interval->high),
+                   fmt::format("c s{}", series.style % kSvgColours));
+    }
     path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", c.x(p.x), c.y(p.y));
     dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" class=\"dot s{}\"/>\n",
                         c.x(p.x), c.y(p.y), series.style % kSvgColours);
@@ -137,6 +142,17 @@ std::string marks(const Canvas& c, const Series& series) {
   return {};
 }
 
+std::string band_rectangle(double x, double y, double width, double height) {
+  return fmt::format(
+      "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" class=\"band\"/>\n", x, y,
+      width, height);
+}
+
+std::string band(const Canvas& c, const Band& band) {
+  const double top = c.y(band.range.high);
+  return band_rectangle(c.left, top, kWidth, std::max(1.0, c.y(band.range.low) - top));
+}
+
 std::string legend_text(const Series& series) {
   return series.note.empty() ? series.name : fmt::format("{} ({})", series.name, series.note);
 }
@@ -150,6 +166,10 @@ std::string legend(const Canvas& c) {
            text_at(left + 38, y + 4, "start", legend_text(series));
     y += kLegendStep;
   }
+  if (c.plot.band) {
+    svg +=
+        band_rectangle(left, y - 7, 30, 14) + text_at(left + 38, y + 4, "start", c.plot.band->name);
+  }
   return svg;
 }
 
@@ -157,6 +177,7 @@ double total_width(const Canvas& c) {
   if (!has_legend(c.plot)) return c.right() + 32;
   std::size_t characters = 20;
   for (const Series& s : c.plot.series) characters = std::max(characters, legend_text(s).size());
+  if (c.plot.band) characters = std::max(characters, c.plot.band->name.size());
   return c.right() + kLegendGap + 50 + kCharacter * static_cast<double>(characters);
 }
 
@@ -199,7 +220,8 @@ std::string escaped(std::string_view text) {
 
 std::string svg(const Plot& plot, SvgUse use) {
   const Canvas c(plot);
-  const auto entries = static_cast<double>(has_legend(plot) ? plot.series.size() : 0);
+  const std::size_t shown = plot.series.size() + (plot.band ? 1 : 0);
+  const auto entries = static_cast<double>(has_legend(plot) ? shown : 0);
   const double height = std::max(c.bottom() + 58, kTop + kLegendStep * (1.0 + entries));
   const std::string size = use == SvgUse::kFile ? fmt::format(" width=\"{:.0f}\" height=\"{:.0f}\"",
                                                               total_width(c), height)
@@ -212,6 +234,7 @@ std::string svg(const Plot& plot, SvgUse use) {
       "<rect width=\"100%\" height=\"100%\" rx=\"8\" class=\"panel\"/>\n",
       total_width(c), height, size, escaped(title), use == SvgUse::kFile ? kFileStyle : "");
   svg += text_at(c.left, 28, "start", title) + axes(c);
+  if (plot.band) svg += band(c, *plot.band);
   for (std::size_t i = plot.series.size(); i-- > 0;) svg += marks(c, plot.series[i]);
   if (has_legend(plot)) svg += legend(c);
   return svg + "</svg>\n";

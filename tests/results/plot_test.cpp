@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 #include "make_record.h"
 #include "results/anytime.h"
@@ -49,6 +50,28 @@ TEST(Axis, OfManyDecadesHasFewTicks) {
   const Axis wide{.quantity = Quantity::kEta, .scale = Scale::kLog10, .low = 1e-16, .high = 10};
   EXPECT_LE(ticks(wide).size(), 10u);
   EXPECT_GE(ticks(wide).size(), 4u);
+}
+
+TEST(Axis, TicksOfANarrowRangeDiffer) {
+  const std::vector<std::string> shown =
+      labels({.quantity = Quantity::kRatio, .low = 0.24371, .high = 0.24382});
+  ASSERT_GE(shown.size(), 3u);
+  EXPECT_EQ(std::set<std::string>(shown.begin(), shown.end()).size(), shown.size());
+  EXPECT_THAT(labels({.quantity = Quantity::kRatio, .low = -0.5, .high = 0.5}),
+              testing::Contains("0"));
+}
+
+TEST(LinearAxis, HoldsTheFiniteValuesAndARange) {
+  const std::vector<double> values = {-2.0, 3.0, Record::kUnknown};
+  const Axis axis = linear_axis("x", Quantity::kRatio, values);
+  EXPECT_LT(axis.low, -2.0);
+  EXPECT_GT(axis.low, -3.0);
+  EXPECT_GT(axis.high, 3.0);
+  const std::vector<double> alike = {7.0, 7.0 * (1.0 + 1e-15)};
+  const Axis narrow = linear_axis("x", Quantity::kRatio, alike);
+  EXPECT_LT(narrow.low, 7.0);
+  EXPECT_GT(narrow.high - narrow.low, 0.1);
+  EXPECT_EQ(linear_axis("x", Quantity::kRatio, std::vector<double>{0.0}).place(0.0), 0.5);
 }
 
 TEST(LogAxis, EndsAtPowersOfTenAroundTheFiniteValues) {
@@ -145,6 +168,23 @@ TEST(SvgPlot, EscapesNamesAndNeedsNothingOutsideItself) {
   EXPECT_THAT(file, HasSubstr("a&lt;b&gt;&quot;&amp;"));
   EXPECT_THAT(file, HasSubstr("<style>"));
   EXPECT_THAT(svg(plot, SvgUse::kPage), testing::Not(HasSubstr("<style>")));
+}
+
+TEST(Svg, DrawsABandAndTheIntervalsOfPoints) {
+  const Plot plot{.id = "p",
+                  .title = "height",
+                  .mark = Mark::kLines,
+                  .x = {.quantity = Quantity::kRatio},
+                  .y = {.quantity = Quantity::kRatio},
+                  .band = Band{.range = {0.25, 0.75}, .name = "reference"},
+                  .series = {{.name = "gs",
+                              .points = {{.x = 0.5, .y = 0.5, .y_interval = Interval{0.0, 1.0}}}}}};
+  const std::string picture = svg(plot, SvgUse::kFile);
+  // The frame is 480 x 320 px with its corner at (74, 48).
+  EXPECT_THAT(picture, HasSubstr(R"(<rect x="74.0" y="128.0" width="480.0" height="160.0")"));
+  EXPECT_THAT(picture,
+              HasSubstr(R"(<line x1="314.0" y1="368.0" x2="314.0" y2="48.0" class="c s0")"));
+  EXPECT_THAT(picture, HasSubstr(">reference</text>"));
 }
 
 }  // namespace
