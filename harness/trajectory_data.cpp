@@ -60,7 +60,7 @@ std::vector<double> ends_of(const Findings& findings, const ObservableKind& kind
 
 // Curves of one plot are set apart a little, so that their spreads do not cover each other.
 results::Series curve_of(const Findings& findings, const ObservableKind& kind, std::size_t index) {
-  constexpr double kApart = 1.08;
+  constexpr double kApart = 1.15;
   results::Series series{.name = findings.solvers[index], .style = index};
   const double middle = 0.5 * static_cast<double>(findings.solvers.size() - 1);
   for (const FindingsLine& line : findings.lines) {
@@ -72,6 +72,17 @@ results::Series curve_of(const Findings& findings, const ObservableKind& kind, s
     series.points.back().y_interval = results::Interval{s.mean - s.spread, s.mean + s.spread};
   }
   return series;
+}
+
+// With room beside the first and the last, loosest first.
+Axis tolerance_axis(const std::vector<double>& tolerances) {
+  constexpr double kRoom = 2.0;
+  return {.label = "tolerance on eta",
+          .quantity = Quantity::kEta,
+          .scale = results::Scale::kLog10,
+          .low = tolerances.back() / kRoom,
+          .high = tolerances.front() * kRoom,
+          .falling = true};
 }
 
 Axis y_axis(const Findings& findings, const ObservableKind& kind) {
@@ -129,9 +140,8 @@ std::vector<Plot> trajectory_plots(const Findings& findings) {
     Plot plot{.id = std::string(kind.key),
               .title = fmt::format("{}: {}", findings.scene, kind.words),
               .mark = results::Mark::kLines,
-              .x = log_axis("tolerance on eta", Quantity::kEta, findings.tolerances),
+              .x = tolerance_axis(findings.tolerances),
               .y = y_axis(findings, kind)};
-    plot.x.falling = true;
     const double spread = std::isfinite(reference.spread) ? reference.spread : 0.0;
     plot.band = {.range = {reference.mean - spread, reference.mean + spread},
                  .name = fmt::format("reference, {} to {:g}", findings.reference.solver,

@@ -5,7 +5,6 @@
 #include <limits>
 
 namespace conebench::harness {
-namespace {
 
 // A step's arrays are about as large as those of the step before: their pages are kept, since to
 // get them anew from the system takes a fifth of a step of 12 000 contacts.
@@ -14,8 +13,6 @@ void keep_freed_memory() {
   mallopt(M_MMAP_THRESHOLD, kLargestKept);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
 }
-
-}  // namespace
 
 void add_scene_options(CLI::App& verb, SceneRun& run) {
   verb.add_option("SCENE", run.scene, "Built-in name or .toml file")->required();

@@ -17,6 +17,9 @@ struct SceneRun {
   std::int64_t steps = 0;  ///< 0: the scene's duration
 };
 
+/// From now on memory that a step frees is kept for the next, instead of going back to the system.
+void keep_freed_memory();
+
 void add_scene_options(CLI::App& verb, SceneRun& run);
 
 std::unique_ptr<Engine> make_engine(const SceneRun& run);

@@ -4,6 +4,7 @@
 
 #include "harness/command_line.h"
 #include "harness/commands/commands.h"
+#include "harness/commands/scene_run.h"
 #include "harness/commands/text_output.h"
 #include "harness/interrupt.h"
 #include "harness/trajectory_report.h"
@@ -47,6 +48,7 @@ int study(StudyVerb options) {
   options.wish.reference_time_limit_s =
       parse_duration_s(options.reference_time_limit, "--reference-time-limit");
   const TrajectoryPlan plan = plan_trajectories(options.wish);
+  keep_freed_memory();
   catch_interrupts();
   const TrajectoryRows runs = run_trajectories(plan, options.folder);
   tell(plan, runs, !options.folder.empty());

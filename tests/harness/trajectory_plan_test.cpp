@@ -91,8 +91,8 @@ TEST(TrajectoryPlan, WhatCannotBeRunIsAnInputError) {
   refused([](auto& w) { w.scene = "sand-colum"; });
 }
 
-// What a seed does in each scene of the program. Those without chance have single bodies, masonry
-// or undisturbed sand.
+// What a seed does in each scene of the program. Those without chance have single bodies, lattices,
+// masonry or undisturbed sand.
 TEST(Seeds, GiveDifferentPackingsInTheScenesThatDrawOne) {
   std::set<std::string> with_chance;
   for (const EngineKind& kind : all_engines()) {
@@ -103,9 +103,9 @@ TEST(Seeds, GiveDifferentPackingsInTheScenesThatDrawOne) {
       if (plan_trajectories(wish).seed_matters) with_chance.emplace(scene.name);
     }
   }
-  EXPECT_THAT(with_chance, ElementsAre("avalanche", "capsules-deposition", "cohesive-clump-impact",
-                                       "collapse-2d", "column-cohesive", "column-dry", "drum",
-                                       "hopper", "mixed-shapes-heap", "shaker"));
+  EXPECT_THAT(with_chance,
+              ElementsAre("avalanche", "capsules-deposition", "collapse-2d", "column-cohesive",
+                          "column-dry", "drum", "hopper", "mixed-shapes-heap", "shaker"));
 }
 
 class Trajectories : public test::OwnFolder {
