@@ -38,6 +38,23 @@ TEST_F(StudyVerb, GoesOnFromItsFolder) {
   EXPECT_THAT(conebench(with_more + " -o out").err, HasSubstr("8 runs: 2 done now, 6 kept"));
 }
 
+TEST_F(StudyVerb, InterruptedItKeepsWhatIsDoneAndGoesOnFromThere) {
+  const std::string longer =
+      "study sand-column --set grid.cells=[16,4] --set grid.size_m=[4,1] --set "
+      "blocks[0].jitter=0.5 --steps 6000 -s gs --tol 1e-1 --seeds 3 --reference-tol 1e-6 -o out";
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s INT 1 " CONEBENCH_PROGRAM " " +
+                              longer + " > out.txt 2> err.txt";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 130);
+  EXPECT_THAT(content(folder_ / "err.txt"), HasSubstr("the same command goes on"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "study.md"));
+  const std::string runs = content(folder_ / "out" / "runs.jsonl");
+  const auto done = std::count(runs.begin(), runs.end(), '\n');
+  EXPECT_LT(done, 6);
+  EXPECT_THAT(conebench(longer).err,
+              HasSubstr(std::to_string(6 - done) + " done now, " + std::to_string(done) + " kept"));
+}
+
 TEST_F(StudyVerb, PrintsOneObject) {
   const Ran ran = conebench(kSmall + " --json");
   ASSERT_EQ(ran.code, 0) << ran.err;
