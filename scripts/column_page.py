@@ -89,7 +89,8 @@ def how(args, known, rows):
         + f"), discs {known['run_out']:.2f}. So mu = {known['friction']:.3f}, an angle of "
         f"{math.degrees(math.asin(known['friction'])):.0f} degrees; single packings ask for "
         f"{known['frictions'][0]:.2f} to {known['frictions'][1]:.2f}. "
-        "What agrees at c = 0 in run-out does so by construction; profiles and all cohesive columns are predictions.", "",
+        "What agrees at c = 0 in run-out does so by construction; profiles and all cohesive "
+        "columns are predictions.", "",
         "**Cohesion.** c is the shear strength at zero pressure; what matters is c / (rho g H). "
         "That of bonds is measured: the same packings, glued to their floor, which then falls "
         f"{columns_of_discs.PULL:g} g faster than free fall; the bonds at which they tear, by "

@@ -41,7 +41,7 @@ TEST_F(StudyVerb, GoesOnFromItsFolder) {
 TEST_F(StudyVerb, InterruptedItKeepsWhatIsDoneAndGoesOnFromThere) {
   const std::string longer =
       "study sand-column --set grid.cells=[16,4] --set grid.size_m=[4,1] --set "
-      "blocks[0].jitter=0.5 --steps 6000 -s gs --tol 1e-1 --seeds 3 --reference-tol 1e-6 -o out";
+      "blocks[0].jitter=0.5 --steps 3000 -s gs --tol 1e-1 --seeds 3 --reference-tol 1e-6 -o out";
   const std::string command = "cd '" + folder_.string() +
                               "' && timeout --preserve-status -s INT 1 " CONEBENCH_PROGRAM " " +
                               longer + " > out.txt 2> err.txt";
