@@ -53,23 +53,30 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
   return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
 }
 
+// Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
+bool is_grid(const Problem& problem) {
+  return problem.is_primal() &&
+         problem.H().nonZeros() > 12 * static_cast<Eigen::Index>(problem.rows());
+}
+
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
+    const bool grid = is_grid(problem);
     if (!gauss_seidel_refuses(problem, kSkipping)) {
-      lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); }, 0.0,
-                        kFirstSweeps, 0, 0.1});
+      lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); },
+                        grid ? 30000.0 : 0.0, kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
     // Where W is singular for sure, the others need more and dearer factorisations.
     const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
-    lanes_.push_back({"prox-newton", make_proximal_newton, 300.0, 1, 80, 0.1});
+    lanes_.push_back({"prox-newton", make_proximal_newton, grid ? 0.0 : 300.0, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
-                      singular ? 15000.0 : 300.0, 1, 15, 1e-2});
+                      grid ? 60000.0 : singular ? 15000.0 : 300.0, 1, 15, 1e-2});
     lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); },
-                      singular ? 15000.0 : 1500.0, 1, 30, 0.0});
+                      grid ? 60000.0 : singular ? 15000.0 : 1500.0, 1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      singular ? 10000.0 : 1500.0, 1, 60, 0.1});
+                      grid ? 50000.0 : singular ? 10000.0 : 1500.0, 1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {
@@ -81,7 +88,7 @@ class Automatic final : public Iteration {
       lane.steps = 0;
       lane.over = false;
     }
-    begin_turn(0);
+    begin_turn(first_lane());
   }
 
   State advance() override {
@@ -120,6 +127,13 @@ class Automatic final : public Iteration {
   bool turn_is_over(const Lane& lane) const {
     if (lane.steps < lane.first_steps) return false;
     return turn_s_ >= kTurnGrowth * (lane.done_s - turn_s_);
+  }
+
+  std::size_t first_lane() const {
+    const auto first = std::min_element(
+        lanes_.begin(), lanes_.end(),
+        [](const Lane& a, const Lane& b) { return a.first_promise < b.first_promise; });
+    return static_cast<std::size_t>(first - lanes_.begin());
   }
 
   void begin_turn(std::size_t next) {
