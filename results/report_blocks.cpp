@@ -52,7 +52,8 @@ std::vector<std::string> marks_shown(const std::vector<std::string>& marks) {
 std::string without_success(std::span<const Rank> lines) {
   std::string names;
   for (const Rank& line : lines) {
-    if (line.solved == 0 && line.problems > 0) names += (names.empty() ? "" : ", ") + tick(line.solver);
+    if (line.solved == 0 && line.problems > 0)
+      names += (names.empty() ? "" : ", ") + tick(line.solver);
   }
   return names.empty() ? "" : "Solved nothing, so without a place: " + names + ". ";
 }
