@@ -7,6 +7,7 @@
 #include "harness/command_line.h"
 #include "harness/commands/commands.h"
 #include "harness/demo_files.h"
+#include "harness/diary.h"
 #include "harness/interrupt.h"
 #include "harness/report_views.h"
 #include "harness/step_costs.h"
@@ -142,6 +143,7 @@ int demo(const std::filesystem::path& folder, const std::filesystem::path& data)
   const auto written =
       results::write_report({.records = records,
                              .command = command_line(),
+                             .machine_marks = machine_marks(results_dir),
                              .scene_costs = read_scene_costs(results_dir),
                              .views = std::move(views.views),
                              .no_views = std::move(views.note)},

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "harness/commands/commands.h"
+#include "harness/diary.h"
 #include "harness/summary.h"
 #include "problems/error.h"
 #include "results/merge.h"
@@ -23,7 +24,10 @@ int merge(const MergeOptions& options) {
   results::Merger merger;
   for (const auto& folder : options.results_dirs) merger.add(load_records(folder));
   const auto folder = elsewhere ? options.output : options.results_dirs.front();
-  if (elsewhere) results::write_merged_journal(folder, merger.records());
+  if (elsewhere) {
+    results::write_merged_journal(folder, merger.records());
+    copy_diaries(options.results_dirs, folder);
+  }
   const auto store = folder / "results.db";
   results::write_store(store, merger.records());
   fmt::print(stderr, "{} records, {} of tasks that another folder had done as well\n",

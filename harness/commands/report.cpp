@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "harness/commands/commands.h"
+#include "harness/diary.h"
 #include "harness/report_views.h"
 #include "harness/step_costs.h"
 #include "harness/summary.h"
@@ -33,6 +34,7 @@ int report(const ReportOptions& options) {
   const auto place = place_of(options);
   results::ReportInput input{.records = records,
                              .command = campaign_command(options.results_dir),
+                             .machine_marks = machine_marks(options.results_dir),
                              .scene_costs = read_scene_costs(options.results_dir),
                              .views = {},
                              .no_views = {}};
