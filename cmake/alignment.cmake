@@ -16,9 +16,11 @@ file(WRITE ${probe} "#include <Eigen/Core>
 heap EIGEN_DEFAULT_ALIGN_BYTES
 static EIGEN_MAX_STATIC_ALIGN_BYTES
 ")
-separate_arguments(flags UNIX_COMMAND "${CMAKE_CXX_FLAGS} -march=native")
+separate_arguments(flags UNIX_COMMAND "${CMAKE_CXX_FLAGS}")
+get_target_property(options conebench_build INTERFACE_COMPILE_OPTIONS)
+list(FILTER options INCLUDE REGEX "^-m")
 get_target_property(eigen Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
-execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${flags} -I${eigen} -E -P ${probe}
+execute_process(COMMAND ${CMAKE_CXX_COMPILER} ${flags} ${options} -I${eigen} -E -P ${probe}
   OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
 foreach(kind heap static)
   if(NOT text MATCHES "\n${kind} ([0-9]+)")

@@ -75,12 +75,12 @@ Geometry Row::geometry() const {
   for (int i = 0; i + 1 < blocks; ++i) {
     geometry.points.row(i) << 0.5 * (x(i) + x(i + 1)), y(i), 0.0;
     geometry.frames.row(i) << 1, 0, 0, 0, 1, 0, 0, 0, 1;
-    geometry.bodies_of_cone.row(i) << i, i + 1;
+    geometry.bodies_of_cone.row(i) << i + 1, i;  // the normal points towards the first
   }
   for (int i = 0; i < blocks; ++i) {
     geometry.points.row(blocks - 1 + i) << x(i), 0.0, 0.0;
     geometry.frames.row(blocks - 1 + i) << 0, 1, 0, 1, 0, 0, 0, 0, -1;
-    geometry.bodies_of_cone.row(blocks - 1 + i) << -1, i;  // -1: a wall or the ground
+    geometry.bodies_of_cone.row(blocks - 1 + i) << i, -1;  // -1: a wall or the ground
   }
   geometry.body_positions.resize(blocks, 3);
   geometry.body_positions << x, y, Eigen::VectorXd::Zero(blocks);
