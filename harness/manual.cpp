@@ -11,7 +11,7 @@
 namespace conebench::harness {
 namespace {
 
-// A line of text, none of it read as a request, with the characters of the keyboard.
+// Text, none of it read as a request, with the characters of the keyboard.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -34,11 +34,14 @@ std::string roff(const std::string& text) {
       case '~':
         out += "\\(ti";
         break;
+      case '.':
+        out += out.empty() || out.back() == '\n' ? "\\&." : ".";
+        break;
       default:
         out += c;
     }
   }
-  return out.starts_with('.') ? "\\&" + out : out;
+  return out;
 }
 
 std::string bold(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
