@@ -37,7 +37,7 @@ Problem Row::problem(int step) const {
   // f = M v_minus + h f_ext
   Eigen::VectorXd f = mass_kg * velocity;
   for (int i = 0; i < blocks; ++i) f(2 * i + 1) -= step_s * mass_kg * gravity_m_s2;
-  f(0) += step_s * push_N;
+  f(0) += step_s * push_per_step_N * (step + 1);
 
   // u = H v + w: rates of opening and of sliding; w = gap / h lets a contact close within the step.
   Eigen::VectorXd w = Eigen::VectorXd::Zero(2 * contacts);
@@ -97,6 +97,10 @@ void Row::advance(const Eigen::VectorXd& velocity_at_end) {
 }
 
 double Row::expected_velocity_m_s(int steps) const {
-  const double acceleration = push_N / (blocks * mass_kg) - friction * gravity_m_s2;
-  return steps * step_s * std::max(0.0, acceleration);
+  double sum = 0.0;
+  for (int step = 0; step < steps; ++step) {
+    const double push = push_per_step_N * (step + 1) / (blocks * mass_kg);
+    sum += step_s * std::max(0.0, push - friction * gravity_m_s2);
+  }
+  return sum;
 }

@@ -3,13 +3,14 @@
 #include <problems/problem_file.h>
 
 /// Equal blocks that touch each other in a row on the floor, the first of them pushed along the
-/// row. Two dimensions; blocks do not turn. Velocities (x, y) of block 0, of block 1, ... [m/s].
+/// row, harder in every step: they stick, and then slide as one. Two dimensions; blocks do not
+/// turn. Velocities (x, y) of block 0, of block 1, ... [m/s].
 struct Row {
   int blocks = 8;
   double mass_kg = 2.0;
   double side_m = 0.1;
-  double friction = 0.3;  ///< of the floor and between blocks [-]
-  double push_N = 94.0;
+  double friction = 0.3;         ///< of the floor and between blocks [-]
+  double push_per_step_N = 5.0;  ///< step 0 pushes once, step 1 twice, ...
   double gravity_m_s2 = 9.81;
   double step_s = 1e-3;
 
@@ -28,6 +29,6 @@ struct Row {
   /// Takes the velocities of the end of a step and moves the blocks.
   void advance(const Eigen::VectorXd& velocity_at_end);
 
-  /// What the common velocity is after `steps` steps, by Newton's second law.
+  /// What the common velocity is after `steps` steps, by Newton's and Coulomb's laws.
   double expected_velocity_m_s(int steps) const;
 };
