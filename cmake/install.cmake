@@ -12,7 +12,7 @@ install(TARGETS conebench COMPONENT program)
 install(FILES harness/plugin_api.h DESTINATION ${conebench_include}/harness COMPONENT program)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/docs COMPONENT program)
-install(DIRECTORY examples/export tests/out_of_tree_engine/pushed_blocks
+install(DIRECTORY examples/export tests/out_of_tree_engine/pushed_blocks USE_SOURCE_PERMISSIONS
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT program)
 
 # The manual and the completion are what the program says of itself.
