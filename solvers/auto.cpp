@@ -72,11 +72,20 @@ class Automatic final : public Iteration {
     const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
     lanes_.push_back({"prox-newton", make_proximal_newton, grid ? 0.0 : 300.0, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
-                      grid ? 60000.0 : singular ? 15000.0 : 300.0, 1, 15, 1e-2});
+                      grid       ? 60000.0
+                      : singular ? 15000.0
+                                 : 300.0,
+                      1, 15, 1e-2});
     lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); },
-                      grid ? 60000.0 : singular ? 15000.0 : 1500.0, 1, 30, 0.0});
+                      grid       ? 60000.0
+                      : singular ? 15000.0
+                                 : 1500.0,
+                      1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      grid ? 50000.0 : singular ? 10000.0 : 1500.0, 1, 60, 0.1});
+                      grid       ? 50000.0
+                      : singular ? 10000.0
+                                 : 1500.0,
+                      1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {

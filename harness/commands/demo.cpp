@@ -163,9 +163,11 @@ void add_demo(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "demo", "Simulate, export, solve with every kind of solver, report; less than 3 minutes");
   verb->add_option("-o,--output", options->folder, "Folder to write to")
+      ->type_name("DIR")
       ->capture_default_str()
       ->take_last();
   verb->add_option("--data", options->data, "More problem files, used where the folder exists")
+      ->type_name("DIR")
       ->take_last();
   verb->callback([options, &exit_code] { exit_code = demo(options->folder, options->data); });
 }

@@ -42,9 +42,12 @@ void add_merge(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* verb = app.add_subcommand(
       "merge", "Join the journals of all shards, or of several results folders, in results.db");
-  verb->add_option("RESULTS_DIR", options->results_dirs, "Results folders")->required();
+  verb->add_option("RESULTS_DIR", options->results_dirs, "Results folders")
+      ->type_name("")
+      ->required();
   verb->add_option("-o,--output", options->output,
-                   "Folder for the joined journal and results.db (default: the only RESULTS_DIR)");
+                   "Folder for the joined journal and results.db (default: the only RESULTS_DIR)")
+      ->type_name("DIR");
   verb->callback([options, &exit_code] { exit_code = merge(*options); });
 }
 
