@@ -53,39 +53,39 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
   return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
 }
 
-// Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
-bool is_grid(const Problem& problem) {
-  return problem.is_primal() &&
-         problem.H().nonZeros() > 12 * static_cast<Eigen::Index>(problem.rows());
+// Lane::first_promise of each.
+struct FirstPromise {
+  double gs, prox_newton, newton_ac, ipm, aclm;
+};
+constexpr FirstPromise kOnGrid{30000.0, 0.0, 60000.0, 60000.0, 50000.0};
+// Where W is singular for sure, the last three need more and dearer factorisations.
+constexpr FirstPromise kSingular{0.0, 300.0, 15000.0, 15000.0, 10000.0};
+constexpr FirstPromise kOtherwise{0.0, 300.0, 300.0, 1500.0, 1500.0};
+
+FirstPromise first_promise(const Problem& problem) {
+  if (!problem.is_primal()) return kOtherwise;
+  // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
+  const auto entries = static_cast<std::int64_t>(problem.H().nonZeros());
+  if (entries > 12 * static_cast<std::int64_t>(problem.rows())) return kOnGrid;
+  return problem.rows() > problem.dofs() ? kSingular : kOtherwise;
 }
 
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
-    const bool grid = is_grid(problem);
+    const FirstPromise promise = first_promise(problem);
     if (!gauss_seidel_refuses(problem, kSkipping)) {
       lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); },
-                        grid ? 30000.0 : 0.0, kFirstSweeps, 0, 0.1});
+                        promise.gs, kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
-    // Where W is singular for sure, the others need more and dearer factorisations.
-    const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
-    lanes_.push_back({"prox-newton", make_proximal_newton, grid ? 0.0 : 300.0, 1, 80, 0.1});
+    lanes_.push_back({"prox-newton", make_proximal_newton, promise.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
-                      grid       ? 60000.0
-                      : singular ? 15000.0
-                                 : 300.0,
-                      1, 15, 1e-2});
-    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); },
-                      grid       ? 60000.0
-                      : singular ? 15000.0
-                                 : 1500.0,
-                      1, 30, 0.0});
+                      promise.newton_ac, 1, 15, 1e-2});
+    lanes_.push_back(
+        {"ipm", [](const Problem& p) { return make_ipm(p); }, promise.ipm, 1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      grid       ? 50000.0
-                      : singular ? 10000.0
-                                 : 1500.0,
-                      1, 60, 0.1});
+                      promise.aclm, 1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {
