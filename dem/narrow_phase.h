@@ -27,8 +27,8 @@ struct Touch {
 ///
 /// Bullet's own narrow phase would not do: its closest points end up to 7e-5 of a piece's size and
 /// 0.04 rad from the nearest ones (tests/dem/narrow_phase_bullet_test.cpp), where a gap of 1e-9
-/// forms a bond; it keeps four points a pair at most, gathered over several steps, so that what it
-/// finds depends on more than where the pieces are.
+/// forms a bond; it keeps at most four points a pair, those of round pieces gathered over several
+/// steps, so that what it finds depends on more than where the pieces are.
 ///
 /// Errors: InputError where two meshes meet: that is not treated.
 class NarrowPhase {

@@ -2,7 +2,7 @@
 """Processor milliseconds and bytes of a DEM step, by number of spheres, and where they go.
 
     dem_speed.py OUT.md [--program conebench] [--only 1000 10000 ...] [--solver auto]
-    dem_speed.py OUT.md --export [--pairs 3]
+    dem_speed.py OUT.md --export [--pairs 2]
 
 Collapse of column-dry with 1e3 to 1e6 spheres, each run warm: every step starts from the reactions
 of the last. The medians are over the last half of the steps; a run's memory is its largest resident
@@ -33,7 +33,7 @@ import scene_runs
 CASES = ((440, 120, 1e-6), (1000, 120, 1e-3), (10000, 100, 1e-3), (100000, 60, 1e-3),
          (300000, 40, 1e-4), (1000000, 12, 1e-3))
 PARTS = ("contact_s", "assembly_s", "solve_s", "engine_s")
-EXPORTED = (10000, 50, 1e-3)
+EXPORTED = (10000, 120, 1e-3)
 
 
 def processor_clock(folder):
@@ -92,11 +92,17 @@ def row_of(args, steps, tol, summary, rows, used):
 
 
 def exponents(rows):
-    """Of the step's time against contacts, from each row to the next of the same tolerance."""
-    same = [row for row in rows if row["tol"] == "0.001" and row["solver"] == rows[0]["solver"]]
-    size = [(int(row["contacts"]), float(row["step, ms"])) for row in same]
-    return [f"{n} to {m} contacts: {math.log(b / a) / math.log(m / n):.2f}"
-            for (n, a), (m, b) in zip(size, size[1:]) if m > n]
+    """Against contacts, between rows of one solver at 1e-3: of all but the solver's time, and of the
+    solver's time an iteration, since later steps need more of these."""
+    out = []
+    for solver in dict.fromkeys(row["solver"] for row in rows):
+        size = [(int(row["contacts"]), float(row["step, ms"]) - float(row["solve, ms"]),
+                 float(row["solve, ms"]) / float(row["iterations"]))
+                for row in rows if row["tol"] == "0.001" and row["solver"] == solver]
+        for (n, *small), (m, *large) in zip(size, size[1:]):
+            powers = [math.log(y / x) / math.log(m / n) for x, y in zip(small, large)]
+            out.append(f"`{solver}`, {n} to {m} contacts: {powers[0]:.2f} and {powers[1]:.2f}")
+    return out
 
 
 def measure_export(args):
@@ -166,12 +172,10 @@ def write_page(args):
              "over the last half of the steps of a run.", ""]
     if rows:
         lines += table(rows)
-        lines += ["", "Exponent of the step's time at 1e-3: " + "; ".join(exponents(rows)) + "."]
+        lines += ["", "Exponents at 1e-3, without the solver and of an iteration of it: " +
+                  "; ".join(exponents(rows)) + "."]
     if exported:
         lines += [line.replace("{out}", args.out.name) for line in export_text(exported)]
-    notes = args.out.with_name(args.out.stem + "-notes.md")
-    if notes.exists():
-        lines += ["", notes.read_text().strip()]
     args.out.write_text("\n".join(lines) + "\n")
 
 
@@ -190,7 +194,7 @@ def main():
     parser.add_argument("--only", type=int, nargs="*", help="these numbers of spheres")
     parser.add_argument("--solver", default="auto")
     parser.add_argument("--export", action="store_true", help="what export costs, nothing else")
-    parser.add_argument("--pairs", type=int, default=3)
+    parser.add_argument("--pairs", type=int, default=2)
     args = parser.parse_args()
     if args.export:
         keep(export_file(args.out), measure_export(args))
