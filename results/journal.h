@@ -37,6 +37,8 @@ JournalContent read_results(const std::filesystem::path& results_dir);
 class Journal {
  public:
   static constexpr double kFlush_s = LineFile::kFlush_s;
+  static constexpr double kGroup_s = LineFile::kGroup_s;
+  static constexpr double kAsk_s = LineFile::kAsk_s;
 
   /// Opens or creates the journal; terminates a torn last line. Throws problems::OutputError when
   /// the place is not writable or another process holds the lock.
@@ -45,8 +47,10 @@ class Journal {
   /// The records of one task: all of their lines or, with problems::OutputError (disk full), none.
   void append(std::span<const Record> records);
   void append(const Record& record) { append(std::span(&record, 1)); }
-  /// Syncs to disk what has waited for kFlush_s. Throws problems::OutputError.
+  /// Syncs to disk what has waited for kGroup_s. Throws problems::OutputError.
   void flush_if_due() { file_.flush_if_due(); }
+  /// Syncs to disk what has not been. Throws problems::OutputError.
+  void flush() { file_.flush(); }
 
  private:
   LineFile file_;

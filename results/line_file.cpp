@@ -64,7 +64,7 @@ void LineFile::append(std::string_view lines) {
 
 void LineFile::flush_if_due() {
   const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - waiting_since_;
-  if (unsynced_ && waited.count() >= kFlush_s) flush();
+  if (waited.count() >= kGroup_s) flush();
 }
 
 void LineFile::write(std::string_view lines) {
@@ -88,6 +88,7 @@ void LineFile::write(std::string_view lines) {
 }
 
 void LineFile::flush() {
+  if (!unsynced_) return;
   if (::fdatasync(fd_) != 0) throw OutputError(path_.string(), reason());
   unsynced_ = false;
 }

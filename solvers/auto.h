@@ -22,7 +22,9 @@ namespace conebench::solvers {
 ///           done the steps it usually needs (prox-newton 80, newton-ac 15, ipm 30, aclm 60), a
 ///           lane promises at most the work of the rest; before its first turn, a number of
 ///           sweeps of gs, larger for the last three where H has more rows than columns, so
-///           that W is singular.
+///           that W is singular. The lane that promises least begins: gs; where rows of H have
+///           more than 12 entries on average, so that cones are nodes of a grid, prox-newton, all
+///           the others after it.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is far better than its own (gs, prox-newton, aclm: 10 times;
 ///           newton-ac, whose path matters: 100 times; ipm, which gains nothing from a start on the
@@ -30,7 +32,9 @@ namespace conebench::solvers {
 ///
 /// Evidence: on hyperstatic piles Gauss-Seidel crawls where Newton with a proximal term finishes in
 /// a few steps, on sphere packings the other way round, and nothing in the data tells them apart
-/// beforehand; progress does. Aims at a small multiple of the best lane's time; there is no proof.
+/// beforehand; progress does. Of grids it is known: on ten steps of sand-column (80 x 20 cells, eta
+/// <= 1e-5) Gauss-Seidel took 1.8 s a step and prox-newton 0.06 s. Aims at a small multiple of the
+/// best lane's time; there is no proof.
 /// Own test (StopTest::kOwn)  that of the lane, verified with eta.
 Method automatic();
 

@@ -71,21 +71,24 @@ void add_study(CLI::App& app, int& exit_code) {
   wish.tolerances = {1e-1, 1e-2, 1e-3, 1e-4};
   CLI::App* verb = app.add_subcommand(
       "study", "Which tolerance is enough for a scene's physics: solver x tolerance x seed");
-  verb->add_option("SCENE", wish.scene, "Built-in name or .toml file")->required();
-  verb->add_option("-s,--solver", wish.solvers,
-                   "Variants (default: the scene's); lists make grids");
+  verb->add_option("SCENE", wish.scene, "Built-in name or .toml file")->type_name("")->required();
+  verb->add_option("-s,--solver", wish.solvers, "Variants (default: the scene's); lists make grids")
+      ->type_name("SOLVER");
   verb->add_option("--tol", wish.tolerances, "Tolerances on eta, each looser than the reference's")
       ->delimiter(',')
       ->capture_default_str();
   verb->add_option("--seeds", wish.seeds,
                    "How many, from the scene's seed on; or a list such as 1,4,9")
+      ->type_name("N|LIST")
       ->capture_default_str();
   verb->add_option("--reference", wish.reference, "Variant that deviations are from")
+      ->type_name("SOLVER")
       ->capture_default_str();
   verb->add_option("--reference-tol", wish.reference_tol, "Its tolerance on eta")
       ->capture_default_str();
   verb->add_option("--reference-time-limit", options->reference_time_limit,
                    "Its time for one step, in place of the scene's limits")
+      ->type_name("DURATION")
       ->capture_default_str();
   verb->add_option("--set", wish.overrides,
                    "Another value of the scene, such as material.friction=0.5")
@@ -95,7 +98,8 @@ void add_study(CLI::App& app, int& exit_code) {
       ->check(CLI::PositiveNumber);
   verb->add_option("-o,--output", options->folder,
                    "Folder for study.md, study.csv, figures and runs.jsonl, from which the same "
-                   "command goes on");
+                   "command goes on")
+      ->type_name("DIR");
   verb->add_flag("--json", options->json, "Print the findings as one JSON object");
   verb->footer(
       "Runs keep to the scene's limits on a step's iterations and time (--set "
