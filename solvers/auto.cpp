@@ -200,6 +200,7 @@ Method automatic() {
       .name = "auto",
       .kind = Kind::kMethod,
       .summary = "gs, prox-newton, newton-ac, aclm and ipm in turns; the one that gets on goes on",
+      .source = "ours",
       .parameters = {},
       .make = {}};
   method.make = [method](const Values& values) {
