@@ -13,7 +13,7 @@ namespace conebench::harness {
 /// What is asked of a solver at every step.
 struct Wish {
   double tol = 1e-5;      ///< on eta
-  double budget_s = 0.0;  ///< wall clock of one step
+  double budget_s = 0.0;  ///< wall clock of one solve
   double confidence = 0.95;
 };
 

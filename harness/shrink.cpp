@@ -82,9 +82,9 @@ class Search {
   }
 
   std::optional<bool> still_fails(const std::vector<int>& cones, const Failure& failure) {
-    const ProblemSource part{.load = [this, &cones] {
-      return problems::part_of(whole_, cones, whole_.problem.metadata());
-    }};
+    const ProblemSource part{.id = {}, .load = [this, &cones] {
+                               return problems::part_of(whole_, cones, whole_.problem.metadata());
+                             }};
     try {
       const std::optional<Record> record = solve(part);
       if (!record) return std::nullopt;

@@ -28,11 +28,11 @@ struct ShrinkState {
 };
 
 struct Shrunk {
-  problems::Metadata whole;
-  int cones = 0;                ///< of the whole
-  std::vector<int> kept;        ///< of the whole's cones; what `output` holds
-  std::string failure;          ///< what had to be seen: Failure::text()
-  results::Record first, last;  ///< the runs on the whole, and on the file that was written
+  problems::Metadata whole{};
+  int cones = 0;                    ///< of the whole
+  std::vector<int> kept{};          ///< of the whole's cones; what `output` holds
+  std::string failure{};            ///< what had to be seen: Failure::text()
+  results::Record first{}, last{};  ///< the runs on the whole, and on the file that was written
   std::size_t runs = 0;
   bool minimal = false;    ///< without any one cone the solver does not fail so
   bool confirmed = false;  ///< the file, read again, makes the solver fail so
@@ -48,7 +48,7 @@ struct Shrunk {
 /// what it is a part, which cones it has, and how which solver fails on it. `watch` is told of
 /// every run.
 ///
-/// Deterministic for a solver that is; one whose limit is the clock may leave other parts.
+/// Deterministic for a solver that is; where a limit on time decides, other parts may be left.
 /// Errors  InputError where the whole cannot be read or does not fail so, and where the output is
 ///         the input; OutputError where the output cannot be written.
 Shrunk shrink(const ShrinkRequest& request, const std::function<void(const ShrinkState&)>& watch);

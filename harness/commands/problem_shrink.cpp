@@ -21,6 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 struct Options {
   std::string file, solver = "auto", failing, mode = "cold", output;
+  std::int64_t max_iterations = solvers::Stop{}.max_iterations;
   SolveSettings settings;
   bool json = false;
 };
@@ -78,10 +79,12 @@ void print_text(const Shrunk& shrunk, const Options& options, double time_s) {
 }
 
 int run(const Options& options) {
+  solvers::Stop stop = options.settings.checked_stop();
+  stop.max_iterations = options.max_iterations;
   const ShrinkRequest request{.input = options.file,
                               .output = options.output,
                               .solver = make_solver(options.solver),
-                              .stop = options.settings.checked_stop(),
+                              .stop = stop,
                               .failing = options.failing,
                               .mode = mode_from(options.mode, "--mode"),
                               .memory_limit_bytes = options.settings.memory_limit_bytes(),
@@ -127,6 +130,10 @@ void add_problem_shrink(CLI::App& problem, int& exit_code) {
       ->check(CLI::IsMember({"cold", "warm"}))
       ->capture_default_str();
   options->settings.add_to(*verb);
+  verb->add_option("--max-iterations", options->max_iterations,
+                   "Of every run; unlike a time limit it ends a run alike everywhere")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   verb->add_option("-o,--output", options->output,
                    "Problem file to write; while the search runs, the smallest so far")
       ->required();

@@ -87,6 +87,9 @@ int check(const std::string& variant, const std::vector<std::filesystem::path>& 
     fmt::print("{}  {}: {}, eta {}, {} iterations{}\n", result.passed ? "pass" : "FAIL",
                r.problem.name, results::to_string(r.status), results::format_eta(r.eta),
                r.iterations, r.error.empty() ? "" : ", " + r.error);
+    for (const std::string& note : r.notes) {
+      if (!result.passed) fmt::print("      {}\n", note);
+    }
     good = good && result.passed;
   }
   return good ? 0 : 1;
