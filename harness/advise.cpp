@@ -63,16 +63,6 @@ bool better(const Entrant& a, const Entrant& b, const Wish& wish) {
   return total_s(a, kPatience * wish.budget_s) < total_s(b, kPatience * wish.budget_s);
 }
 
-bool all_but_lost(const Entrant& entrant, const Entrant& leader, const Wish& wish) {
-  const auto trials = static_cast<std::int64_t>(entrant.times_s.size());
-  const std::int64_t mine = entrant.within(wish.budget_s), best = leader.within(wish.budget_s);
-  // Misses are successes of the complement: an upper bound of p from a lower one of 1 - p.
-  const double most = 1.0 - results::binomial_lower_bound(trials - mine, trials, kRaceConfidence);
-  if (most < results::binomial_lower_bound(best, trials, kRaceConfidence)) return true;
-  const double limit = kPatience * wish.budget_s;
-  return mine <= best && total_s(entrant, limit) > kFarBehind * total_s(leader, limit);
-}
-
 void drop_losers(std::vector<Entrant>& entrants, const Wish& wish) {
   const Entrant* leader = nullptr;
   for (const Entrant& entrant : entrants) {
@@ -83,7 +73,7 @@ void drop_losers(std::vector<Entrant>& entrants, const Wish& wish) {
   if (leader == nullptr || leader->times_s.size() < kLeastRaced) return;
   for (Entrant& entrant : entrants) {
     if (&entrant == leader || entrant.dropped) continue;
-    entrant.dropped = all_but_lost(entrant, *leader, wish);
+    entrant.dropped = out_of_the_race(entrant, *leader, wish);
   }
 }
 
@@ -171,6 +161,15 @@ double Entrant::quantile_s(double share) const {
   std::ranges::sort(sorted);
   const double rank = std::ceil(share * static_cast<double>(sorted.size()));
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+bool out_of_the_race(const Entrant& entrant, const Entrant& leader, const Wish& wish) {
+  const auto trials = static_cast<std::int64_t>(entrant.times_s.size());
+  const std::int64_t mine = entrant.within(wish.budget_s), best = leader.within(wish.budget_s);
+  // Misses are successes of the complement: an upper bound of p from a lower one of 1 - p.
+  const double most = 1.0 - results::binomial_lower_bound(trials - mine, trials, kRaceConfidence);
+  if (most < results::binomial_lower_bound(best, trials, kRaceConfidence)) return true;
+  return mine <= best && entrant.quantile_s(0.5) > kFarBehind * leader.quantile_s(0.5);
 }
 
 std::vector<Entrant> race(const std::vector<Sample>& samples,

@@ -39,13 +39,17 @@ struct Entrant {
 /// engine would (islands too where `by_islands`). A step counts as solved when eta of the answer,
 /// computed anew, is <= tol; nobody gets more than kPatience budgets.
 ///
-/// A solver leaves the race when it is all but sure to lose it: its share of steps within the
-/// budget is below the leader's with a confidence of 95 % on both sides, or, having no more steps
-/// within the budget than the leader, it has taken kFarBehind times the leader's time. A step
+/// A solver leaves the race when it is out_of_the_race(), at the earliest after four steps. A step
 /// that a solver cannot take counts as not solved.
 std::vector<Entrant> race(const std::vector<Sample>& samples,
                           const std::vector<std::string>& solvers, const Wish& wish,
                           bool by_islands);
+
+/// All but sure to lose: its share of steps within the budget is below the leader's with a
+/// confidence of 95 % on both sides, or, with no more steps within the budget than the leader, its
+/// median time is above kFarBehind times the leader's. (Not its mean: one hard step among easy ones
+/// is no reason.)
+bool out_of_the_race(const Entrant& entrant, const Entrant& leader, const Wish& wish);
 
 inline constexpr double kPatience = 20.0;
 inline constexpr double kFarBehind = 4.0;

@@ -43,8 +43,10 @@ Problem contacts(const SparseMatrix& M) {
           {}};
 }
 
+// A contact that no body feels.
 Problem zero_delassus() {
-  return {problems::ReducedData{SparseMatrix(3, 3), Eigen::Vector3d(-1.0, 0.5, 0.0)},
+  return {problems::PrimalData{identity(3), SparseMatrix(3, 3), Eigen::Vector3d::Zero(),
+                               Eigen::Vector3d(-1.0, 0.5, 0.0)},
           {Cone::coulomb(3, 0.5)},
           {}};
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <sstream>
+
 #include "harness/parameter_text.h"
 #include "harness/refusals.h"
 
@@ -70,20 +72,43 @@ std::string refusals_text(const Method& method, const std::vector<ProblemKind>& 
   return text;
 }
 
+// Words in lines of at most 100 characters.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidth = 100;
+  std::istringstream words(text);
+  std::string lines, line;
+  for (std::string word; words >> word;) {
+    if (!line.empty() && line.size() + 1 + word.size() > kWidth) {
+      lines += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? "" : " ") + word;
+  }
+  return lines + line + "\n";
+}
+
+// A summary that begins with the kind says it once.
+std::string described(const Method& method) {
+  const std::string kind(solvers::to_string(method.kind));
+  const bool said = method.summary.starts_with(kind + ": ");
+  return fmt::format("A {}: {}.", kind,
+                     said ? method.summary.substr(kind.size() + 2) : method.summary);
+}
+
 std::string section(const Method& method, const std::vector<ProblemKind>& kinds) {
-  std::string text = fmt::format("\n## `{}`\n\nA {}: {}.\n", method.name,
-                                 solvers::to_string(method.kind), method.summary);
-  if (!method.source.empty()) text += fmt::format("\nSource: {}.\n", method.source);
+  std::string text = fmt::format("\n## `{}`\n\n{}", method.name, wrapped(described(method)));
+  if (!method.source.empty()) text += "\n" + wrapped("Source: " + method.source + ".");
   return text + "\n" + parameters_of(method) + "\n" + refusals_text(method, kinds);
 }
 
 std::string kinds_asked(const std::vector<ProblemKind>& kinds) {
   std::string text =
-      "\nEach was asked, with its defaults and every other choice of its texts, whether it takes\n";
+      "Each was asked, with its defaults and with every other choice of its texts, whether it "
+      "takes";
   for (const ProblemKind& kind : kinds) {
-    text += (&kind == &kinds.front() ? "" : &kind == &kinds.back() ? ", and " : ", ") + kind.name;
+    text += (&kind == &kinds.front() ? " " : "; ") + kind.name;
   }
-  return text + ". What it refuses is in its own words.\n";
+  return "\n" + wrapped(text + ". What it refuses is said in its own words.");
 }
 
 }  // namespace

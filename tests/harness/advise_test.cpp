@@ -49,6 +49,26 @@ TEST(Advise, TheSolverThatNeverGetsThereLeavesTheRace) {
   EXPECT_EQ(entrants[1].solved(), 12);
 }
 
+TEST(Advise, OneHardStepAmongEasyOnesIsNoReasonToLeave) {
+  const Wish wish{.tol = 1e-8, .budget_s = 2.0};
+  const Entrant leader{.solver = "steady", .times_s = {1.0, 1.0, 1.0, 3.0}};
+  const Entrant quick{.solver = "quick", .times_s = {0.1, 0.1, 0.1, kInfinity}};
+  EXPECT_FALSE(out_of_the_race(quick, leader, wish));
+  const Entrant slow{.solver = "slow", .times_s = {1.9, 4.1, 4.1, 4.1}};
+  EXPECT_TRUE(out_of_the_race(slow, leader, wish));
+  const Entrant near{.solver = "near", .times_s = {1.9, 1.9, 4.1, 4.1}};
+  EXPECT_FALSE(out_of_the_race(near, leader, wish));
+}
+
+TEST(Advise, AShareThatIsSurelySmallerIsAReasonToLeave) {
+  const Wish wish{.tol = 1e-8, .budget_s = 2.0};
+  const Entrant leader{.solver = "sure", .times_s = std::vector<double>(12, 1.0)};
+  Entrant misses{.solver = "misses", .times_s = std::vector<double>(12, 3.0)};
+  EXPECT_TRUE(out_of_the_race(misses, leader, wish));
+  std::fill_n(misses.times_s.begin(), 10, 1.0);
+  EXPECT_FALSE(out_of_the_race(misses, leader, wish));
+}
+
 TEST(Advise, PromisesWhatUnseenStepsBear) {
   const Wish wish{.tol = 1e-8, .budget_s = 5.0, .confidence = 0.9};
   const Advice advice =

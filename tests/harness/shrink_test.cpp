@@ -148,6 +148,18 @@ TEST_F(Shrink, IsTheSameEveryTime) {
   EXPECT_EQ(content_sha256(problems::load_problem(folder_ / "part.h5").problem), hash);
 }
 
+// Walls that close in: the search ends with contacts that contradict each other, and a proof.
+TEST_F(Shrink, LeavesThePairThatHasNoSolution) {
+  const Problem whole =
+      problems::make_backwards(
+          {.family = problems::Family::kInfeasible, .cones = 12, .dims = {3}, .seed = 2})
+          .problem;
+  write(only(whole));
+  const Shrunk found = shrink_with(make_solver("aclm"), "infeasible");
+  ASSERT_TRUE(found.minimal && found.confirmed);
+  EXPECT_EQ(found.kept.size(), 2u);
+}
+
 // On its third run it is well again: the whole and one part have failed by then.
 TEST_F(Shrink, SaysSoWhenTheFailureDoesNotComeAgain) {
   write(only(problems::make_backwards({.cones = 2, .dims = {3}, .seed = 3}).problem));
