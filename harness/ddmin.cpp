@@ -38,7 +38,6 @@ Minimum minimise(const std::vector<int>& items, const StillFails& still_fails) {
   Minimum found;
   while (!all_single(chunks)) {
     chunks = halved(chunks);
-    const bool last_level = all_single(chunks);
     std::size_t at = 0, untried = chunks.size();
     while (untried > 0 && chunks.size() > 1) {
       at %= chunks.size();
@@ -54,8 +53,8 @@ Minimum minimise(const std::vector<int>& items, const StillFails& still_fails) {
         continue;
       }
       chunks.erase(chunks.begin() + static_cast<std::ptrdiff_t>(at));
-      // What could not be left out before may be now; on coarser levels the finer ones find it.
-      if (last_level) untried = chunks.size();
+      // What could not be left out before may be now; of larger chunks the next level finds out.
+      if (all_single(chunks)) untried = chunks.size();
     }
   }
   found.items = joined(chunks);

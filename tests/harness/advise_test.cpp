@@ -102,7 +102,7 @@ TEST_F(AdviseVerb, WritesAPolicyThatBothEnginesTake) {
   EXPECT_GT(advice["probability"], 0.5);
   EXPECT_GE(advice["validation_steps"], 4);
   for (const std::string scene : {"stack --steps 200",
-                                  "sand-column --steps 3 --set "
+                                  "sand-column --steps 6 --set "
                                   "grid.cells=[16,4] --set grid.size_m=[4,1]"}) {
     const Ran run = conebench("simulate " + scene + " -s policy:policy.toml --json");
     ASSERT_EQ(run.code, 0) << run.err;
@@ -110,6 +110,20 @@ TEST_F(AdviseVerb, WritesAPolicyThatBothEnginesTake) {
     EXPECT_EQ(summary["steps_not_converged"], 0);
     EXPECT_GT(summary["iterations"], 0);
   }
+}
+
+// The stack is the same for every seed; a second run of it has nothing unseen.
+TEST_F(AdviseVerb, JudgesOnAnotherSeedOnlyWhereThatIsAnotherRun) {
+  const Ran same = conebench("advise stack --budget 1s --tol 1e-6 --samples 8 -s gs");
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.out, HasSubstr("windows of one run in turn"));
+  EXPECT_THAT(same.out, HasSubstr("the seed changes nothing"));
+  const std::string sand =
+      "advise sand-column --set grid.cells=[16,4] --set duration_s=0.1 --budget 1s --samples 8 -s "
+      "gs";
+  EXPECT_THAT(conebench(sand).out, HasSubstr("it does with --set blocks[0].jitter=0.5"));
+  const Ran other = conebench(sand + " --set blocks[0].jitter=0.5");
+  EXPECT_THAT(other.out, HasSubstr("seed 1 to choose, seed 2 to judge")) << other.err;
 }
 
 TEST_F(AdviseVerb, TakesExportedProblems) {

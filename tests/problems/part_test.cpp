@@ -143,7 +143,7 @@ ProblemFile file_of_row() {
   file.geometry->bodies_of_cone.resize(4, 2);
   file.geometry->bodies_of_cone << -1, 0, 0, 1, 1, 2, 2, -1;
   file.geometry->body_positions = Eigen::Matrix3d::Identity();
-  file.geometry->body_radii = Eigen::Vector3d(0.1, 0.2, 0.3);
+  file.geometry->body_radii = Eigen::VectorXd{{0.1, 0.2, 0.3}};
   file.geometry->state = {0, 1, 2, -1};
   file.geometry->volume_fraction = Eigen::Vector4d(0.4, 0.5, 0.6, 0.7);
   file.solution->r = Eigen::Vector4d(5, 6, 7, 8);
