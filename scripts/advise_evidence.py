@@ -287,8 +287,8 @@ def main():
     parser.add_argument("--quick", action="store_true", help="fewer steps and runs")
     parser.add_argument("--note", default="", help="a sentence on the state of the machine")
     args = parser.parse_args()
-    args.samples, args.steps = (24, 12) if args.quick else (60, 30)
-    args.runs = (3, 4) if args.quick else (3, 4, 5, 6)
+    args.samples, args.steps = (24, 12) if args.quick else (40, 20)
+    args.runs = (3, 4) if args.quick else (3, 4, 5)
     ask = Asker(args)
     cases = [Case(ask, args, *scene) for scene in SCENES]
     times = {case.scene: case.race() for case in cases}
