@@ -292,8 +292,9 @@ std::vector<Record> records_of(const Task& task, const ChildOutcome& outcome) {
     record.wall_s = outcome.wall_s;
     record.cpu_s = outcome.cpu_s;
     record.peak_memory_bytes = std::max(record.peak_memory_bytes, outcome.peak_memory_bytes);
-    const bool silent = record.solved() || !record.error.empty() || outcome.errors.empty();
-    if (!silent) record.error = last_words(outcome.errors);
+    const bool well = record.solved() && record.status != Status::kDiverged;
+    if (well || !record.error.empty() || outcome.errors.empty()) continue;
+    record.error = last_words(outcome.errors);
   }
   return records;
 }
