@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "problems/made_backwards.h"
 #include "results/binomial.h"
@@ -47,6 +48,16 @@ TEST(Advise, TheSolverThatNeverGetsThereLeavesTheRace) {
   EXPECT_TRUE(entrants[0].dropped);
   EXPECT_FALSE(entrants[1].dropped);
   EXPECT_EQ(entrants[1].solved(), 12);
+}
+
+TEST(Advise, ARaceMeetsStepsFromAllPartsOfARunSoon) {
+  for (const std::size_t count : {8u, 40u, 100u}) {
+    const std::vector<std::size_t> order = spread_order(count);
+    EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), count);
+    std::set<std::size_t> quarters;
+    for (std::size_t k = 0; k < 8; ++k) quarters.insert(4 * order[k] / count);
+    EXPECT_EQ(quarters.size(), 4u) << count;
+  }
 }
 
 TEST(Advise, OneHardStepAmongEasyOnesIsNoReasonToLeave) {
