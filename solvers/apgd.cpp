@@ -136,6 +136,9 @@ Method apgd() {
       .name = "apgd",
       .kind = Kind::kMethod,
       .summary = "accelerated projected gradient, restarted, De Saxce term refreshed",
+      .source =
+          "Mazhar, Heyn, Negrut, Tasora, ACM Trans. Graph. 34(3) (2015), Algorithm 1; restart: "
+          "O'Donoghue, Candes, Found. Comput. Math. 15 (2015) (neither checked)",
       .parameters = {{.name = "refresh",
                       .fallback = std::int64_t{1},
                       .low = 1,

@@ -227,6 +227,7 @@ Method automatic() {
       .kind = Kind::kMethod,
       .summary =
           "apgd, gs, prox-newton, newton-ac, ipm, aclm in turns; the one that gets on goes on",
+      .source = "ours",
       .parameters = {},
       .make = {}};
   method.make = [method](const Values& values) {
