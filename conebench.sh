@@ -16,8 +16,8 @@ packages=(g++ make cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev
   python3 python3-h5py)
 # For the report's page, unless they came another way.
 command -v node >/dev/null && command -v npm >/dev/null || packages+=(nodejs npm)
-# The browser that tests that page.
-[ "${1:-}" = test ] && packages+=(chromium)
+# The browser that tests that page, and what reads the manual.
+[ "${1:-}" = test ] && packages+=(chromium groff-base)
 
 say() { echo "conebench.sh: $*" >&2; }
 

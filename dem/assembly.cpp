@@ -24,7 +24,7 @@ struct Axes {
   int count() const { return static_cast<int>(linear.size() + angular.size()); }
 };
 
-// Appends rows to a compressed matrix, in order.
+// Appends rows to a compressed matrix, in order. Zeros are left out: every first tangent has one.
 class RowWriter {
  public:
   RowWriter(SparseMatrix& matrix, Eigen::Index rows, Eigen::Index columns, Eigen::Index capacity)
@@ -35,6 +35,7 @@ class RowWriter {
   }
 
   void add(int column, double value) {
+    if (value == 0.0) return;
     matrix_.innerIndexPtr()[next_] = column;
     matrix_.valuePtr()[next_++] = value;
   }
@@ -60,8 +61,7 @@ SparseMatrix mass_matrix(const Axes& axes, const Bodies& bodies) {
     const Eigen::Matrix3d J = bodies.inertia(i);
     for (const int row : axes.angular) {
       for (std::size_t k = 0; k < axes.angular.size(); ++k) {
-        const double value = J(row, axes.angular[k]);
-        if (value != 0.0) rows.add(dof + static_cast<int>(k), value);
+        rows.add(dof + static_cast<int>(k), J(row, axes.angular[k]));
       }
       rows.end_row();
     }

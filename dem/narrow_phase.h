@@ -25,6 +25,11 @@ struct Touch {
 /// bit for bit from any step. Flat faces that meet give all corners of what they share; a face
 /// normal is taken as the normal where it is within 1e-4 rad of the one that was found.
 ///
+/// Bullet's own narrow phase would not do: its closest points end up to 7e-5 of a piece's size and
+/// 0.04 rad from the nearest ones (tests/dem/narrow_phase_bullet_test.cpp), where a gap of 1e-9
+/// forms a bond; it keeps at most four points a pair, those of round pieces gathered over several
+/// steps, so that what it finds depends on more than where the pieces are.
+///
 /// Errors: InputError where two meshes meet: that is not treated.
 class NarrowPhase {
  public:

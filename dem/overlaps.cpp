@@ -21,6 +21,22 @@ double size_of(const Placement& placement, int body) {
   return placement.solids[at(bodies.solid[at(body)])].size_m;
 }
 
+// Half of its thickness, at its thinnest.
+double thinness_of(const Placement& placement, int body) {
+  const Bodies& bodies = placement.bodies;
+  if (bodies.is_plane(body) || bodies.is_ball(body)) return size_of(placement, body);
+  return placement.solids[at(bodies.solid[at(body)])].thinness_m;
+}
+
+double smaller_size(const Placement& placement, int body, int other) {
+  return std::min(size_of(placement, body), size_of(placement, other));
+}
+
+std::string name_of(const Bodies& bodies, int i) {
+  if (bodies.is_plane(i)) return "plane " + std::to_string(i - bodies.count());
+  return "body " + std::to_string(i);
+}
+
 // Finds what overlaps by more than a share of the smaller one's size.
 class OverlapFinder {
  public:
@@ -29,8 +45,7 @@ class OverlapFinder {
   const std::vector<Near>& find(const Placement& placement, double tolerance) {
     neighbours_.find(placement.bodies, 0.0, 0.0, found_);
     std::erase_if(found_, [&](const Near& near) {
-      const double size = std::min(size_of(placement, near.body), size_of(placement, near.other));
-      return -near.touch.gap <= tolerance * size;
+      return -near.touch.gap <= tolerance * smaller_size(placement, near.body, near.other);
     });
     return found_;
   }
@@ -66,11 +81,42 @@ void refuse_overlaps(int dimension, std::string_view subject, const Placement& p
   const auto& overlaps = finder.find(placement, kOverlapTolerance);
   if (overlaps.empty()) return;
   const Near& found = overlaps.front();
-  const bool with_plane = placement.bodies.is_plane(found.other);
-  problems::require(false, subject, "body ", found.body, " and ", with_plane ? "plane " : "body ",
-                    with_plane ? found.other - placement.bodies.count() : found.other,
-                    " overlap by ", -found.touch.gap, " m, expected at most ", kOverlapTolerance,
+  problems::require(false, subject, name_of(placement.bodies, found.body), " and ",
+                    name_of(placement.bodies, found.other), " overlap by ", -found.touch.gap,
+                    " m, expected at most ", kOverlapTolerance,
                     " of the smaller one's size (or resolve = true)");
+}
+
+void refuse_sunk(const Scene& scene, std::int64_t step, std::span<const Contact> contacts,
+                 const Placement& placement) {
+  const Bodies& bodies = placement.bodies;
+  for (const Contact& contact : contacts) {
+    if (contact.gap >= 0.0) continue;
+    const double thinner =
+        std::min(thinness_of(placement, contact.body), thinness_of(placement, contact.other));
+    if (-contact.gap <= thinner) continue;
+    problems::require(false, scene.name, "step ", step, ": ", name_of(bodies, contact.body),
+                      " and ", name_of(bodies, contact.other), " overlap by ", -contact.gap,
+                      " m, expected at most ", thinner,
+                      ", half of the thinner one. A smaller step_s (now ", scene.step_s,
+                      "), a larger skin_m (now ", scene.skin_m,
+                      ") or a smaller solver.tol may help; room that driven walls take away does "
+                      "not come back");
+  }
+}
+
+void refuse_long_step(const Scene& scene, std::string_view subject, const Placement& placement) {
+  const Bodies& bodies = placement.bodies;
+  const double h = scene.step_s;
+  for (int i = 0; i < bodies.count(); ++i) {
+    if (!bodies.is_free(i)) continue;
+    const double way = h * (bodies.velocity[at(i)] + h * scene.gravity_m_s2).norm();
+    const double thickness = 2.0 * thinness_of(placement, i);
+    if (way <= thickness) continue;
+    problems::require(false, subject, "step_s: found ", h, ", in which ", name_of(bodies, i),
+                      " starts by moving ", way, " m, expected at most ", thickness,
+                      " m, its thickness: it could pass others unseen");
+  }
 }
 
 }  // namespace conebench::dem

@@ -198,6 +198,7 @@ Placement place_bodies(const Scene& scene, std::string_view subject) {
   check_laws(scene, out.bodies, subject);
   if (scene.resolve) resolve_overlaps(scene.dimension, subject, out);
   refuse_overlaps(scene.dimension, subject, out);
+  refuse_long_step(scene, subject, out);
   return out;
 }
 

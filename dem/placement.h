@@ -36,7 +36,8 @@ struct Placement {
 /// volume is not conserved and momentum plays no part.
 ///
 /// Errors: InputError naming the first overlapping pair, or saying that 10 000 sweeps did not
-/// part them. `subject` is what errors call the scene.
+/// part them, or naming a body that moves farther in the first step than it is thick. `subject` is
+/// what errors call the scene.
 Placement place_bodies(const Scene& scene, std::string_view subject);
 
 /// The velocities of driven bodies from time_s on for a step, and their places at time_s.

@@ -30,12 +30,20 @@ Piece read_hull(TomlReader& in, std::string_view subject, ScenePart& part) {
   return Hull{mesh.vertices_m};
 }
 
+Box read_box(TomlReader& in) {
+  const Eigen::Vector3d size = in.vector("size_m");
+  if (!(size.array() > 0.0).all()) {
+    in.fail("size_m", fmt::format("found {}, expected numbers > 0", show(size)));
+  }
+  return {0.5 * size};
+}
+
 Piece read_piece(TomlReader& in, std::string_view subject, ScenePart& part) {
   switch (in.word("kind", kKinds)) {
     case 0:
       return Ball{in.number("radius_m", Range::kPositive)};
     case 1:
-      return Box{0.5 * in.vector("size_m")};
+      return read_box(in);
     case 2:
       return Capsule{in.number("radius_m", Range::kPositive),
                      0.5 * in.number("length_m", Range::kPositive)};

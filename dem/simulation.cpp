@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "dem/export.h"
+#include "dem/overlaps.h"
 #include "problems/engine/island_solver.h"
 
 namespace conebench::dem {
@@ -43,6 +44,7 @@ void Simulation::step() {
   drive(scene_, placement_, time_s(), bodies_now());
   before_ = bodies();
   contacts_.update(before_, time_s());
+  refuse_sunk(scene_, summary_.steps, contacts_.contacts(), placement_);
   const auto listed = Clock::now();
   summary_.contact_s += std::chrono::duration<double>(listed - start).count();
   assembly_ = assemble(scene_, before_, contacts_);

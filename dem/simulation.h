@@ -32,8 +32,9 @@ struct Summary {
 ///   x += h v;  rotation by exp(h omega).
 ///
 /// Cost    broad phase and assembly are linear in spheres and contacts; the step solver dominates.
-/// Errors  InputError for an unusable scene; std::runtime_error when the step solver returns
-///         numbers that are not finite. A step that does not converge is counted, not an error.
+/// Errors  InputError for an unusable scene, and when one thing sinks into another (overlaps.h);
+///         std::runtime_error when the step solver returns numbers that are not finite. A step that
+///         does not converge is counted, not an error.
 /// Source  Jean, CMAME 177 (1999) 235-257 (not checked). Differs: positions move with the new
 ///         velocity alone, without a midpoint configuration.
 class Simulation {

@@ -1,16 +1,19 @@
 #include "dem/solid.h"
 
+#include <limits>
+
 namespace conebench::dem {
 namespace {
 
-double size_of(const Shape& shape) {
+// Half the sides of the box about it.
+Eigen::Vector3d half_sides(const Shape& shape) {
   Eigen::AlignedBox3d box;
   for (const Part& part : shape.parts) {
     const Bounds bounds = bounds_of(part.piece, part.pose);
     box.extend(bounds.low);
     box.extend(bounds.high);
   }
-  return 0.5 * box.sizes().maxCoeff();
+  return 0.5 * box.sizes();
 }
 
 }  // namespace
@@ -29,7 +32,9 @@ Solid make_solid(const Shape& shape, std::vector<Piece>& pieces) {
     solid.pieces.push_back(static_cast<int>(pieces.size()));
     pieces.push_back(part.piece);
   }
-  solid.size_m = size_of(shape);
+  const Eigen::Vector3d half = half_sides(shape);
+  solid.size_m = half.maxCoeff();
+  solid.thinness_m = shape.has_mesh() ? std::numeric_limits<double>::infinity() : half.minCoeff();
   return solid;
 }
 

@@ -15,6 +15,8 @@ struct Solid {
   double volume_m3 = 0.0;
   Eigen::Vector3d moments_m5 = Eigen::Vector3d::Zero();  ///< about the axes, density 1 kg/m3
   double size_m = 0.0;  ///< half the longest side of the box about it
+  /// Half the shortest side of that box; infinite with a mesh, which may be flat.
+  double thinness_m = 0.0;
 };
 
 /// Appends the shape's pieces to `pieces`. Cost: a hull's is n log n.

@@ -5,18 +5,14 @@
 
 #include <algorithm>
 #include <csignal>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 
-#include "harness/calibration.h"
-#include "harness/host.h"
+#include "harness/diary.h"
 #include "harness/progress.h"
 #include "problems/error.h"
 #include "results/journal.h"
-#include "results/output.h"
 
 namespace conebench::harness {
 namespace {
@@ -26,12 +22,18 @@ using results::Status;
 
 constexpr int kAttempts = 3;  // of a task whose worker is killed from outside
 
+// A model solves its own problem; a proof that there is no solution is an answer.
+bool failed(const Record& record) {
+  if (record.status == Status::kInfeasible) return false;
+  return record.kind == "model" ? record.status != Status::kConverged : !record.solved();
+}
+
 bool run_again(const Record& record, Rerun rerun) {
   switch (rerun) {
     case Rerun::kNone:
       return false;
     case Rerun::kFailed:
-      return !record.solved();
+      return failed(record);
     case Rerun::kTimeouts:
       return record.status == Status::kTimeLimit || record.status == Status::kKilledTime;
     case Rerun::kAll:
@@ -39,64 +41,6 @@ bool run_again(const Record& record, Rerun rerun) {
   }
   return true;
 }
-
-std::filesystem::path campaign_path(const std::filesystem::path& results_dir,
-                                    results::Shard shard) {
-  if (shard.count == 1) return results_dir / "campaign.json";
-  return results_dir / fmt::format("campaign-{}-of-{}.json", shard.index, shard.count);
-}
-
-nlohmann::json to_json(const Calibration& c) {
-  nlohmann::json j = {{"arithmetic_s", c.arithmetic_s},
-                      {"memory_s", c.memory_s},
-                      {"arithmetic_spread", c.arithmetic_spread},
-                      {"memory_spread", c.memory_spread},
-                      {"processor_s", c.processor_s},
-                      {"stolen_s", c.stolen_s}};
-  if (c.frequency_hz) j["frequency_hz"] = *c.frequency_hz;
-  return j;
-}
-
-// What the campaign ran on, and how fast that was: RESULTS_DIR/campaign.json.
-class Diary {
- public:
-  explicit Diary(const CampaignOptions& options)
-      : path_(campaign_path(options.results_dir, options.shard)),
-        text_({{"command", options.command},
-               {"jobs", options.jobs},
-               {"started_at", utc_now()},
-               {"host", to_json(current_host())}}) {
-    write();
-  }
-
-  void before() { before_ = measure("calibration_before"); }
-
-  // What changed since before().
-  std::vector<std::string> after() {
-    const std::vector<std::string> signs = signs_of_drift(before_, measure("calibration_after"));
-    text_["drift"] = signs;
-    text_["ended_at"] = utc_now();
-    write();
-    return signs;
-  }
-
- private:
-  Calibration measure(const char* key) {
-    const Calibration now = calibrate();
-    text_[key] = to_json(now);
-    write();
-    return now;
-  }
-
-  void write() const {
-    const auto replace = nlohmann::json::error_handler_t::replace;
-    results::write_text_file(path_, text_.dump(2, ' ', false, replace) + "\n");
-  }
-
-  std::filesystem::path path_;
-  nlohmann::json text_;
-  Calibration before_;
-};
 
 // Neither the solver nor one of its limits ended it: an operator, or a system out of memory. Such a
 // task is run again; if that is how it always ends, that is its result.
@@ -139,7 +83,6 @@ std::vector<Task> open_tasks(std::vector<Task> tasks, const std::vector<Record>&
 CampaignSummary run_campaign(const CampaignOptions& options, std::vector<Task> tasks) {
   check_cores(tasks, options.jobs);
   results::Journal journal(results::journal_path(options.results_dir, options.shard));
-  Diary diary(options);
 
   CampaignSummary summary;
   summary.tasks = tasks.size();
@@ -149,6 +92,7 @@ CampaignSummary run_campaign(const CampaignOptions& options, std::vector<Task> t
   ::malloc_trim(0);  // every fork copies what the reading of the journals has left behind
 
   if (tasks.empty()) return summary;
+  Diary diary(options.results_dir, options.shard, options.command, options.jobs);
   diary.before();
 
   std::optional<Progress> progress;
@@ -181,23 +125,13 @@ CampaignSummary run_campaign(const CampaignOptions& options, std::vector<Task> t
     };
     const auto make = [&](std::size_t i) { return job_of(tasks[open[i]]); };
     summary.interrupted =
-        !run_pool(open.size(), options.jobs, {.make = make, .done = done, .tick = tick});
+        !run_pool(open.size(), options.jobs,
+                  {.make = make, .done = done, .tick = tick, .tick_s = results::Journal::kAsk_s});
     open = std::move(again);
   }
+  journal.flush();  // the calibration takes longer than a record may wait
   summary.drift = diary.after();
   return summary;
-}
-
-std::string campaign_command(const std::filesystem::path& results_dir) {
-  std::filesystem::path path = campaign_path(results_dir, {});
-  if (!std::filesystem::exists(path) && std::filesystem::is_directory(results_dir)) {
-    for (const auto& entry : std::filesystem::directory_iterator(results_dir)) {
-      if (entry.path().filename().string().starts_with("campaign-1-of-")) path = entry.path();
-    }
-  }
-  std::ifstream file(path);
-  const auto json = nlohmann::json::parse(file, nullptr, false);
-  return json.is_object() ? json.value("command", std::string()) : std::string();
 }
 
 }  // namespace conebench::harness

@@ -12,7 +12,8 @@ namespace conebench::harness {
 /// Which tasks that the journal already holds are done once more.
 enum class Rerun {
   kNone,
-  kFailed,    ///< those whose verified eta is above the tolerance
+  kFailed,    ///< those whose verified eta is above the tolerance; of models those that did not
+              ///< converge; never a proof that there is no solution
   kTimeouts,  ///< those that ended as time_limit or killed_time
   kAll,
 };
@@ -49,8 +50,5 @@ CampaignSummary run_campaign(const CampaignOptions& options, std::vector<Task> t
 /// Which of the tasks the records do not hold, or hold and shall be run again.
 std::vector<Task> open_tasks(std::vector<Task> tasks, const std::vector<results::Record>& records,
                              Rerun rerun);
-
-/// The "command" of RESULTS_DIR/campaign.json, or of a shard's; empty if there is none.
-std::string campaign_command(const std::filesystem::path& results_dir);
 
 }  // namespace conebench::harness

@@ -16,6 +16,22 @@ namespace {
 
 constexpr int kUsage = 2, kInfrastructure = 3;
 
+constexpr Example kExamples[] = {
+    {"conebench demo", "all of it in less than three minutes"},
+    {"conebench solve FILE -s gs", "one problem, one solver, verified"},
+    {"conebench run -p DIR -s gs spg -o R", "every solver on every problem in DIR"},
+    {"conebench report R", "who is fastest, and who fails where"},
+};
+
+constexpr ExitCode kExitCodes[] = {
+    {0, "ok"},
+    {1, "not converged, or a gate failed"},
+    {kUsage, "wrong use or bad input"},
+    {kInfrastructure, "output failed"},
+    {4, "a claim of success was refuted (--strict)"},
+    {130, "interrupted; a campaign resumes"},
+};
+
 std::string& stored_line() {
   static std::string line;
   return line;
@@ -93,21 +109,29 @@ void add_verbs(CLI::App& program, int& exit_code) {
   add_compare(program, exit_code);
   add_advise(program, exit_code);
   add_doctor(program, exit_code);
+  add_manual(program, exit_code);
+  add_completion(program, exit_code);
+}
+
+std::string footer() {
+  std::string text = "Start here:\n";
+  for (const Example& example : kExamples) {
+    text += fmt::format("  {:<37} {}\n", example.command, example.what);
+  }
+  text += "\nEach command has its own --help. Data goes to stdout, everything else to stderr.\n";
+  text += "Exit codes:\n";
+  for (const ExitCode& exit : kExitCodes) {
+    text += fmt::format("  {:<4} {}\n", exit.code, exit.meaning);
+  }
+  text.pop_back();
+  return text;
 }
 
 void describe(CLI::App& program) {
   program.name("conebench");
   program.require_subcommand(1);
   program.set_version_flag("--version", "conebench " + version());
-  program.footer(
-      "Start here:\n"
-      "  conebench demo                        all of it in less than three minutes\n"
-      "  conebench solve FILE -s gs            one problem, one solver, verified\n"
-      "  conebench run -p DIR -s gs spg -o R   every solver on every problem in DIR\n"
-      "  conebench report R                    who is fastest, and who fails where\n\n"
-      "Each command has its own --help. Data goes to stdout, everything else to stderr.\n"
-      "Exit codes: 0 ok, 1 not converged or gate failed, 2 usage or bad input, 3 output failed,\n"
-      "4 a claim of success was refuted (--strict), 130 interrupted (resumable).");
+  program.footer(footer());
 }
 
 int parse_and_run(CLI::App& program, std::vector<std::string> arguments, const int& exit_code) {
@@ -136,6 +160,9 @@ void set_command_line(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) line += " " + shell_quoted(argument);
   stored_line() = line;
 }
+
+std::span<const Example> program_examples() { return kExamples; }
+std::span<const ExitCode> program_exit_codes() { return kExitCodes; }
 
 const std::string& command_line() { return stored_line(); }
 

@@ -12,7 +12,7 @@ struct ShardedRun {
   std::filesystem::path results_dir;  ///< absolute
   int shards = 1;
   int threads = 1;       ///< cores of a shard
-  double shard_s = 0.0;  ///< longest time of the largest shard, every limit used up
+  double shard_s = 0.0;  ///< longest solver time of the largest shard, every limit used up
 };
 
 /// Writes into the results folder, and returns what it wrote:

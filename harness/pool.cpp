@@ -10,8 +10,6 @@
 namespace conebench::harness {
 namespace {
 
-constexpr double kTick_s = 0.1;
-
 struct Slot {
   std::size_t number = 0;
   std::optional<int> core;
@@ -70,7 +68,7 @@ bool run_pool(std::size_t count, int jobs, const PoolCallbacks& callbacks) {
       }
     }
     if (callbacks.tick) callbacks.tick();
-    if (!news) wait_for_news(running, kTick_s);
+    if (!news) wait_for_news(running, callbacks.tick_s);
   }
   return true;
 }

@@ -19,7 +19,8 @@ struct Job {
 struct PoolCallbacks {
   std::function<Job(std::size_t)> make;  ///< the job of that number, when its turn comes
   std::function<void(std::size_t, const ChildOutcome&)> done;
-  std::function<void()> tick;  ///< now and then, for a progress display
+  std::function<void()> tick;  ///< at least every tick_s, unless a callback takes longer
+  double tick_s = 0.1;
 };
 
 /// Does `count` jobs in child processes, at most `jobs` at a time, started in order. With more than

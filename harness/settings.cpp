@@ -9,14 +9,18 @@ void SolveSettings::add_to(CLI::App& verb) {
   verb.add_option("--tol", tol, "Tolerance on eta, the relative residual [-]")
       ->capture_default_str();
   verb.add_option("--time-limit", time_limit, "Solver time for one task, e.g. 500ms, 60s, 2min")
+      ->type_name("DURATION")
       ->capture_default_str();
   verb.add_option("--mem", memory_limit, "Memory of one task, e.g. 512MiB, 2G (default: no limit)")
+      ->type_name("SIZE")
       ->capture_default_str();
   verb.add_option("--hard-limit", hard_limit,
-                  "Wall time after which a worker is killed (default: 2 x time limit + 30s)");
+                  "Wall time after which a worker is killed (default: 2 x time limit + 30s)")
+      ->type_name("DURATION");
   verb.add_option("--stop", stop,
                   "Who decides that an answer is good: `common` (eta, outside the clock) or `own` "
                   "(the method's own test, inside the clock)")
+      ->type_name("common|own")
       ->capture_default_str();
 }
 

@@ -83,6 +83,15 @@ solvers::Stop stop_at(const Study& study, double tol) {
   return stop;
 }
 
+// What is given twice would be run twice and count once.
+template <class Value>
+void require_distinct(const char* key, const std::vector<Value>& values) {
+  for (auto value = values.begin(); value != values.end(); ++value) {
+    require(std::find(values.begin(), value, *value) == value, key, *value,
+            " stands twice, expected it once");
+  }
+}
+
 }  // namespace
 
 Study read_study(const std::filesystem::path& path) {
@@ -102,6 +111,10 @@ Study read_study(const std::filesystem::path& path) {
 Plan check(const Study& study) {
   Plan plan;
   require(!study.solvers.empty(), "solvers", "none given");
+  require_distinct("tol", study.tolerances);
+  require_distinct("mode", study.modes);
+  require_distinct("donors", study.donors);
+  require_distinct("threads", study.threads);
   for (const double tol : study.tolerances) plan.stops.push_back(stop_at(study, tol));
   const auto solvers = make_all_solvers(study.solvers);
   plan.solvers.assign(solvers.begin(), solvers.end());

@@ -11,35 +11,45 @@ namespace conebench::harness {
 void StudyOptions::add_to(CLI::App& verb) {
   verb_ = &verb;
   Study& s = given_;
-  verb.add_option("-c,--study", file_, "Study file (TOML); options replace what it says");
-  verb.add_option("-p,--problems", s.problems, "Problem files or folders");
-  verb.add_option("-s,--solver", s.solvers, "Variants; lists make grids: gs[omega=0.8,1]");
-  verb.add_option("--where", s.where, "Of the problems those with, e.g. 'cones > 1e3'");
+  verb.add_option("-c,--study", file_, "Study file (TOML); options replace what it says")
+      ->type_name("FILE");
+  verb.add_option("-p,--problems", s.problems, "Problem files or folders")->type_name("PATH");
+  verb.add_option("-s,--solver", s.solvers, "Variants; lists make grids: gs[omega=0.8,1]")
+      ->type_name("SOLVER");
+  verb.add_option("--where", s.where, "Of the problems those with, e.g. 'cones > 1e3'")
+      ->type_name("CONDITION");
   verb.add_option("--tol", s.tolerances, "Tolerances on eta, the relative residual [-]")
       ->capture_default_str();
   verb.add_option("--mode", s.modes,
                   "What a solve starts from: cold (r = 0), warm (the file's guess), sequence "
                   "(consecutive steps, each from the answer to the one before)")
+      ->type_name("cold|warm|sequence")
       ->capture_default_str();
   verb.add_option("--donor", s.donors,
                   "Mode sequence: whose answers are the guesses, `own` or variants")
+      ->type_name("own|SOLVER")
       ->capture_default_str();
   verb.add_option("--threads", s.threads, "Of the libraries that solvers call")
       ->capture_default_str();
   verb.add_option("--time-limit", s.time_limit, "Solver time for one problem, e.g. 500ms, 60s")
+      ->type_name("DURATION")
       ->capture_default_str();
   verb.add_option("--mem", s.memory, "Memory of one task, e.g. 512MiB, 2G; empty: no limit")
+      ->type_name("SIZE")
       ->capture_default_str();
   verb.add_option("--hard-limit", s.hard_limit,
                   "Wall time of one problem after which a worker is killed (default: 2 x time "
-                  "limit + 30s)");
+                  "limit + 30s)")
+      ->type_name("DURATION");
   verb.add_option("--stop", s.stop,
                   "Who decides that an answer is good: `common` (eta, outside the clock) or `own` "
                   "(the method's own test, inside the clock)")
+      ->type_name("common|own")
       ->capture_default_str();
   verb.add_option("--reps", s.repetitions,
                   "Times that each task is run, each in a process of its own; `auto`: many solves "
                   "in one, until the median is known to 2 %")
+      ->type_name("N|auto")
       ->capture_default_str();
   verb.add_option("--seed", s.seed, "Of the random order of the tasks")->capture_default_str();
 }

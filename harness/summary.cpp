@@ -10,8 +10,18 @@
 #include "problems/error.h"
 #include "results/journal.h"
 #include "results/report.h"
+#include "results/verdict.h"
 
 namespace conebench::harness {
+namespace {
+
+// Without marks of emphasis.
+std::string plain(std::string text) {
+  for (auto at = text.find("**"); at != text.npos; at = text.find("**")) text.erase(at, 2);
+  return text;
+}
+
+}  // namespace
 
 std::vector<solvers::Solver> make_all_solvers(const std::vector<std::string>& variants) {
   std::vector<solvers::Solver> all;
@@ -54,8 +64,10 @@ void print_rankings(std::span<const results::Record> records) {
     fmt::print("{}\n", results::describe(group.settings));
     for (const double tol : group.tolerances()) {
       fmt::print("\nverified eta <= {:.0e}\n{}", tol, results::ranking_table(group.methods, tol));
+      const std::string remark = results::ranking_remark(group.methods, tol);
+      if (!remark.empty()) fmt::print("{}\n", remark);
     }
-    fmt::print("\n");
+    fmt::print("\n{}\n\n", plain(results::verdict(results::GroupNumbers(group)).sentence));
   }
 }
 

@@ -20,7 +20,8 @@ void tell(const FoundSources& found);
 /// were lost.
 int tell(const CampaignSummary& summary);
 
-/// The rankings of every group of settings, loosest tolerance first, on stdout.
+/// The rankings of every group of settings, loosest tolerance first, and what they show at the
+/// group's own, on stdout.
 void print_rankings(std::span<const results::Record> records);
 
 /// A journal's records; tells of torn lines on stderr. InputError when there is no journal.

@@ -45,8 +45,19 @@ double processor_time_of_children_s() {
 struct Attempt {
   solvers::Result result;
   std::vector<solvers::CurvePoint> curve;
-  double cpu_s = 0.0;
+  double looks_cpu_s = 0.0;       // processor time of the looks at eta
   std::uint64_t allocations = 0;  // 0 unless they are counted
+};
+
+// Processor time since it was made, of this process and the children that it has waited for. Asking
+// for it enters the system, after which the next microseconds run slower: never before each solve.
+class ProcessorClock {
+ public:
+  double elapsed_s() const { return now_s() - start_s_; }
+
+ private:
+  static double now_s() { return processor_time_s() + processor_time_of_children_s(); }
+  double start_s_ = now_s();
 };
 
 struct Question {
@@ -58,18 +69,16 @@ struct Question {
   Attempt ask(bool count_allocations) {
     Attempt attempt;
     std::optional<AllocationCount> allocations;
-    attempt.cpu_s -= processor_time_s() + processor_time_of_children_s();
     if (count_allocations) allocations.emplace();
     solvers::Monitor monitor(standard, request.stop);  // starts the clock
     monitor.on_look([&](bool begins) {
-      attempt.cpu_s += begins ? processor_time_s() : -processor_time_s();
+      attempt.looks_cpu_s += begins ? -processor_time_s() : processor_time_s();
       if (allocations) begins ? allocations->pause() : allocations->resume();
     });
     request.monitor = &monitor;
     attempt.result = solver.solve(standard, request);
     if (allocations) attempt.allocations = allocations->calls();
     allocations.reset();
-    attempt.cpu_s += processor_time_s() + processor_time_of_children_s();
     attempt.curve = monitor.curve();
     return attempt;
   }
@@ -131,7 +140,8 @@ class Batches {
 
  private:
   void run(benchmark::State& state) {
-    double setup_s = 0.0, cpu_s = 0.0;
+    double setup_s = 0.0, looks_cpu_s = 0.0;
+    const ProcessorClock processor;
     for (auto _ : state) {
       if (Clock::now() > deadline_) {
         state.SkipWithError("no time left");
@@ -140,11 +150,12 @@ class Batches {
       const Attempt attempt = question_.ask(false);
       state.SetIterationTime(total_s(attempt.result));
       setup_s += attempt.result.setup_s;
-      cpu_s += attempt.cpu_s;
+      looks_cpu_s += attempt.looks_cpu_s;
       if (!same_answer(attempt.result, first_)) answers_agree_ = false;
     }
     state.counters["setup_s"] = {setup_s, benchmark::Counter::kAvgIterations};
-    state.counters["cpu_s"] = {cpu_s, benchmark::Counter::kAvgIterations};
+    state.counters["cpu_s"] = {processor.elapsed_s() - looks_cpu_s,
+                               benchmark::Counter::kAvgIterations};
   }
 
   Question& question_;
@@ -184,9 +195,13 @@ void repeat(Question& question, const Repeats& repeats, Clock::time_point start,
     if (spread(samples) <= repeats.spread_goal) break;
   }
   if (samples.empty()) return;
+  const double first_s = total_s(timed.result);
   timed.setup_s = median(samples, [](const Sample& s) { return s.setup_s; });
   timed.solve_s = median(samples, [](const Sample& s) { return s.solve_s; });
   timed.cpu_s = median(samples, [](const Sample& s) { return s.cpu_s; });
+  for (solvers::CurvePoint& point : timed.curve) {
+    point.time_s *= (timed.setup_s + timed.solve_s) / first_s;
+  }
   timed.spread = spread(samples);
   timed.solves = batches.solves();
   if (!batches.answers_agree()) {
@@ -197,14 +212,15 @@ void repeat(Question& question, const Repeats& repeats, Clock::time_point start,
 TimedSolves first_solve(Question& question) {
   TimedSolves timed;
   const MemoryGrowth memory;
+  const ProcessorClock processor;
   Attempt attempt = question.ask(true);
+  timed.cpu_s = processor.elapsed_s() - attempt.looks_cpu_s;
   timed.memory_bytes = memory.bytes();
   timed.process_peak_bytes = memory.process_peak_bytes();
   timed.result = std::move(attempt.result);
   timed.curve = std::move(attempt.curve);
   timed.setup_s = timed.result.setup_s;
   timed.solve_s = timed.result.solve_s;
-  timed.cpu_s = attempt.cpu_s;
   timed.allocations = attempt.allocations;
   timed.spread = std::numeric_limits<double>::infinity();
   return timed;

@@ -22,7 +22,7 @@ struct Repeats {
 /// StopTest::kCommon do not count.
 struct TimedSolves {
   solvers::Result result;                  ///< of the first solve, whatever follows
-  std::vector<solvers::CurvePoint> curve;  ///< likewise
+  std::vector<solvers::CurvePoint> curve;  ///< likewise, its times in proportion to the medians
   double setup_s = 0.0, solve_s = 0.0;     ///< medians, each of a solve
   double cpu_s = 0.0;       ///< median of a solve's processor time, set-up included, residuals not;
                             ///< all threads, and the processes that it has waited for

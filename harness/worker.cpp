@@ -249,7 +249,8 @@ std::vector<Record> blank_records(const Task& task) {
                      .memory_limit_bytes = task.memory_limit_bytes,
                      .stop = task.stop.test == solvers::StopTest::kOwn ? "own" : "common",
                      .mode = std::string(to_string(task.mode)),
-                     .threads = task.threads};
+                     .threads = task.threads,
+                     .timing = task.repeat_for_confidence ? "repeated" : "once"};
   record.repetition = task.repetition;
   record.sequence = sequence_of(task);
   if (task.donor) record.donor = (*task.donor)->name;

@@ -11,8 +11,23 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// One cone's part of a vector, of any dimension.
-using Small = Eigen::VectorXd;
+// Calls `use` with a type for one cone's part of a vector: of fixed size, which needs no memory
+// from the heap, for the usual dimensions.
+template <class Use>
+auto with_part_of(int dim, const Use& use) {
+  switch (dim) {
+    case 1:
+      return use(Eigen::Matrix<double, 1, 1>());
+    case 2:
+      return use(Eigen::Vector2d());
+    case 3:
+      return use(Eigen::Vector3d());
+    case 6:
+      return use(Eigen::Matrix<double, 6, 1>());
+    default:
+      return use(Eigen::VectorXd());
+  }
+}
 
 Measure measure(Eigen::VectorXd per_cone) {
   Measure m;
@@ -55,19 +70,11 @@ double natural_error(const Problem& problem, int i, const Eigen::VectorXd& r,
                      const Eigen::VectorXd& u) {
   const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
   const int at = problem.start(i);
-  const double lambda = problem.mobility()(i);
-  switch (cone.dim) {
-    case 2:
-      return natural_error<Eigen::Vector2d>(cone, lambda, r.segment<2>(at), u.segment<2>(at));
-    case 3:
-      return natural_error<Eigen::Vector3d>(cone, lambda, r.segment<3>(at), u.segment<3>(at));
-    case 6:
-      return natural_error<Eigen::Matrix<double, 6, 1>>(cone, lambda, r.segment<6>(at),
-                                                        u.segment<6>(at));
-    default:
-      return natural_error<Eigen::VectorXd>(cone, lambda, r.segment(at, cone.dim),
-                                            u.segment(at, cone.dim));
-  }
+  return with_part_of(cone.dim, [&](auto part) {
+    using Part = decltype(part);
+    return natural_error<Part>(cone, problem.mobility()(i), r.segment(at, cone.dim),
+                               u.segment(at, cone.dim));
+  });
 }
 
 // max lambda_i |r_i|: the size of what cancels in u.
@@ -100,46 +107,96 @@ double divisor(const Problem& problem, const Eigen::VectorXd& r) {
 }
 
 // x + y - (x^2 + y^2)^{1/2} in the Jordan algebra of the second-order cone, normal first.
-Eigen::VectorXd fischer_burmeister(const Eigen::VectorXd& x, const Eigen::VectorXd& y) {
-  const Eigen::Index tangents = x.size() - 1;
-  const Eigen::VectorXd vector = 2.0 * (x(0) * x.tail(tangents) + y(0) * y.tail(tangents));
+template <class Part>
+Part fischer_burmeister(const Part& x, const Part& y) {
+  Part vector = 2.0 * (x(0) * x + y(0) * y);
+  vector(0) = 0.0;
   const double scalar = x.squaredNorm() + y.squaredNorm();
   const double norm = vector.norm();
   const double low = std::sqrt(std::max(0.0, scalar - norm));
   const double high = std::sqrt(scalar + norm);
-  Eigen::VectorXd phi = x + y;
+  Part phi = x + y;
   phi(0) -= 0.5 * (high + low);
-  if (norm > 0.0) phi.tail(tangents) -= 0.5 * (high - low) / norm * vector;
+  if (norm > 0.0) phi -= 0.5 * (high - low) / norm * vector;
   return phi;
 }
 
 // With mu = 0 the cone is the half line: the scalar function, and r_t itself must vanish.
-double fischer_burmeister_square(const Cone& cone, const Small& r, const Small& u_hat) {
-  Eigen::VectorXd x = r, y = u_hat;
+template <class Part>
+double fischer_burmeister_square(const Cone& cone, const Part& r, const Part& u_hat) {
+  Part x = r, y = u_hat;
   if (cone.mu > 0.0) {
     x(0) *= cone.mu;
-    y.tail(y.size() - 1) *= cone.mu;
+    y *= cone.mu;
+    y(0) = u_hat(0);
     return fischer_burmeister(x, y).squaredNorm();
   }
   const double scalar = r(0) + u_hat(0) - std::hypot(r(0), u_hat(0));
   return scalar * scalar + r.tail(r.size() - 1).squaredNorm();
 }
 
-double alart_curnier_square(const Cone& cone, const Small& r, const Small& u) {
+template <class Part>
+double alart_curnier_square(const Cone& cone, const Part& r, const Part& u) {
   const double un = u(0) + (cone.theta - cone.mu) * tangential_norm(u);
   const double pushed = std::max(0.0, r(0) - un);
-  Small moved = r - u;
+  const Part moved = r - u;
   const double length = tangential_norm(moved);
   const double shrink = length > cone.mu * pushed ? cone.mu * pushed / length : 1.0;
   const double normal = r(0) - pushed;
-  return normal * normal + (r - shrink * moved).tail(r.size() - 1).squaredNorm();
+  const Part tangential = r - shrink * moved;
+  return normal * normal + tangential.tail(r.size() - 1).squaredNorm();
 }
 
-double angle_against(const Small& r, const Small& u) {
+template <class Part>
+double angle_against(const Part& r, const Part& u) {
   const double product = tangential_norm(r) * tangential_norm(u);
   if (!(product > 0.0)) return 0.0;
   const Eigen::Index n = r.size() - 1;
   return std::acos(std::clamp(-r.tail(n).dot(u.tail(n)) / product, -1.0, 1.0));
+}
+
+// What evaluate_residual() asks of one cone.
+struct OfCone {
+  double penetration, violation, tension, work;
+  double natural_square, fischer_burmeister_square, alart_curnier_square;
+};
+
+template <class Part>
+OfCone measures_of(const Cone& cone, const Part& r, const Part& u) {
+  Part u_hat = u;
+  add_de_saxce(cone.theta, u_hat);
+  return {.penetration = std::max(0.0, -u(0)),
+          .violation = std::max(0.0, tangential_norm(r) - cone.mu * r(0)),
+          .tension = std::max(0.0, -r(0)),
+          .work = std::abs(r.dot(u_hat)),
+          .natural_square = natural_map(cone, 1.0, r, u_hat).squaredNorm(),
+          .fischer_burmeister_square = fischer_burmeister_square(cone, r, u_hat),
+          .alart_curnier_square = alart_curnier_square(cone, r, u)};
+}
+
+OfCone measures_of(const Problem& problem, int i, const Eigen::VectorXd& r,
+                   const Eigen::VectorXd& u) {
+  const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
+  const int at = problem.start(i);
+  return with_part_of(cone.dim, [&](auto part) {
+    using Part = decltype(part);
+    return measures_of<Part>(cone, r.segment(at, cone.dim), u.segment(at, cone.dim));
+  });
+}
+
+// Of friction to sliding, of the cones that slide faster than `resolved`.
+Eigen::VectorXd angles(const Problem& problem, double resolved, const Eigen::VectorXd& r,
+                       const Eigen::VectorXd& u) {
+  Eigen::VectorXd angle = Eigen::VectorXd::Zero(problem.cone_count());
+  for (int i = 0; i < problem.cone_count(); ++i) {
+    const int dim = problem.cones()[static_cast<std::size_t>(i)].dim, at = problem.start(i);
+    if (!(tangential_norm(u.segment(at, dim)) > resolved)) continue;
+    angle(i) = with_part_of(dim, [&](auto part) {
+      using Part = decltype(part);
+      return angle_against<Part>(r.segment(at, dim), u.segment(at, dim));
+    });
+  }
+  return angle;
 }
 
 void check(const Problem& standard, const Eigen::VectorXd& r) {
@@ -186,32 +243,20 @@ Residual evaluate_residual(const Problem& standard, const Eigen::VectorXd& r) {
   Eigen::VectorXd eta(cones), penetration(cones), violation(cones), tension(cones), work(cones);
   double natural_square = 0.0, fb_square = 0.0, ac_square = 0.0;
   for (int i = 0; i < cones; ++i) {
-    const Cone& cone = standard.cones()[static_cast<std::size_t>(i)];
-    const Small ri = r.segment(standard.start(i), cone.dim);
-    const Small ui = u.segment(standard.start(i), cone.dim);
-    Small u_hat = ui;
-    add_de_saxce(cone.theta, u_hat);
+    const OfCone of = measures_of(standard, i, r, u);
     eta(i) = natural_error(standard, i, r, u) / scale;
-    penetration(i) = std::max(0.0, -ui(0));
-    violation(i) = std::max(0.0, tangential_norm(ri) - cone.mu * ri(0));
-    tension(i) = std::max(0.0, -ri(0));
-    work(i) = std::abs(ri.dot(u_hat));
-    natural_square += natural_map(cone, 1.0, ri, u_hat).squaredNorm();
-    fb_square += fischer_burmeister_square(cone, ri, u_hat);
-    ac_square += alart_curnier_square(cone, ri, ui);
+    penetration(i) = of.penetration;
+    violation(i) = of.violation;
+    tension(i) = of.tension;
+    work(i) = of.work;
+    natural_square += of.natural_square;
+    fb_square += of.fischer_burmeister_square;
+    ac_square += of.alart_curnier_square;
   }
 
   Residual result;
   result.eta = measure(std::move(eta));
-  Eigen::VectorXd angle = Eigen::VectorXd::Zero(cones);
-  const double resolved = 10.0 * result.eta.max * scale;
-  for (int i = 0; i < cones; ++i) {
-    const int dim = standard.cones()[static_cast<std::size_t>(i)].dim;
-    const Small ui = u.segment(standard.start(i), dim);
-    if (tangential_norm(ui) > resolved) {
-      angle(i) = angle_against(r.segment(standard.start(i), dim), ui);
-    }
-  }
+  result.misalignment = measure(angles(standard, 10.0 * result.eta.max * scale, r, u));
   result.attainable_eta = 1e-16 * cancelling_rate(standard, r) / scale;
   const double natural = std::sqrt(natural_square);
   const double q_size = standard.q().norm();
@@ -223,7 +268,6 @@ Residual evaluate_residual(const Problem& standard, const Eigen::VectorXd& r) {
   result.cone_violation = measure(std::move(violation));
   result.tension = measure(std::move(tension));
   result.work = measure(std::move(work));
-  result.misalignment = measure(std::move(angle));
   if (standard.is_primal()) {
     const Eigen::VectorXd v = standard.velocity(r);
     result.momentum =

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "results/one_host.h"
 #include "results/record.h"
 
 namespace conebench::results {
@@ -14,6 +15,8 @@ namespace conebench::results {
 class Builds {
  public:
   explicit Builds(std::span<const Record> records);
+  /// Of the records that count; only those have a name.
+  Builds(std::span<const Record> records, const OneHost& hosts);
 
   /// "gs", or "gs@1a2b3c4d" (its build) where there are several.
   std::string name(const Record& record) const;

@@ -14,9 +14,9 @@ namespace {
 
 std::string key_of(const Record& r, int repetition) {
   const Settings& s = r.settings;
-  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", r.problem.content_sha256,
+  return fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", r.problem.content_sha256,
                      r.solver, r.donor, s.tol, s.time_limit_s, s.memory_limit_bytes, s.stop, s.mode,
-                     s.threads, repetition, r.sequence.id, r.sequence.index);
+                     s.threads, s.timing, repetition, r.sequence.id, r.sequence.index);
 }
 
 std::string name_of(const Record& r) {
@@ -91,8 +91,8 @@ std::optional<double> noise_of(std::span<const Record> base, std::span<const Rec
 }  // namespace
 
 std::vector<std::string> quantity_names() {
-  return {"sgm(time)",  "p50(time)", "p99(time)", "max(time)", "gm(eta)",
-          "iterations", "solved",    "failures",  "missing"};
+  return {"sgm(time)",  "p50(time)",         "p99(time)", "max(time)", "gm(eta)",
+          "iterations", "worst(iterations)", "solved",    "failures",  "missing"};
 }
 
 const Quantity& Comparison::quantity(const std::string& name) const {

@@ -16,6 +16,8 @@ namespace conebench::results {
 ///   p50(time), p99(time), max(time)    order statistics over all pairs, a failure is infinite
 ///   gm(eta)                            geometric mean of eta, floored, over those that both solve
 ///   iterations                         geometric mean, over those that both solve
+///   worst(iterations)                  the largest ratio of one pair that both solve: a mean over
+///                                      many hides one solver that takes twice as many
 ///   solved                             pairs solved
 ///   failures                           pairs solved in BASE and not in NEW: a count, not a ratio
 ///   missing                            rows of BASE that NEW does not have: a count

@@ -27,6 +27,7 @@ std::string run_name(const Record& record, const std::string& solver) {
   if (s.mode != "cold") name += "/mode:" + s.mode;
   if (s.threads != 1) name += fmt::format("/threads:{}", s.threads);
   if (s.stop != "common") name += "/stop:" + s.stop;
+  if (s.timing != "once") name += "/timing:" + s.timing;
   if (record.sequence.length > 1) name += "/" + record.sequence.name;
   if (!in_time(record)) name += fmt::format("/failed:{}", to_string(record.status));
   return name;
@@ -66,7 +67,8 @@ void add_error(Json& run, const Record& record) {
 
 std::string gbench_report(std::span<const Record> records) {
   Json report = {{"context", records.empty() ? Json::object() : context(records.front())},
-                 {"benchmarks", Json::array()}};
+                 {"benchmarks", Json::array()},
+                 {"failures", Json::array()}};
   const Builds builds(records);
   const auto solver_of = [&](const Record& r) { return contender(builds.name(r), r.donor); };
   std::map<std::string, int> families, instances, repetitions, index_of_run;
@@ -81,12 +83,9 @@ std::string gbench_report(std::span<const Record> records) {
     run["repetitions"] = repetitions[name];
     run["repetition_index"] = index_of_run[name]++;
     run["threads"] = record.settings.threads;
-    if (in_time(record)) {
-      add_times(run, record);
-    } else {
-      add_error(run, record);
-    }
-    report["benchmarks"].push_back(std::move(run));
+    const bool timed = in_time(record);
+    timed ? add_times(run, record) : add_error(run, record);
+    report[timed ? "benchmarks" : "failures"].push_back(std::move(run));
   }
   return report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

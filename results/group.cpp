@@ -6,11 +6,13 @@
 #include <cmath>
 
 #include "results/builds.h"
+#include "results/one_host.h"
 #include "results/text.h"
 
 namespace conebench::results {
 
 std::vector<double> Group::tolerances() const {
+  if (settings.stop == "own") return {settings.tol};
   std::vector<double> tols;
   for (const double t : {1e-4, 1e-6}) {
     if (t > settings.tol) tols.push_back(t);
@@ -20,9 +22,11 @@ std::vector<double> Group::tolerances() const {
 }
 
 std::vector<Group> group_by_settings(std::span<const Record> records) {
-  const Builds builds(records);
+  const OneHost hosts(records);
+  const Builds builds(records, hosts);
   std::vector<Group> groups;
   for (const Record& record : records) {
+    if (!hosts.counts(record)) continue;
     auto group = std::find_if(groups.begin(), groups.end(),
                               [&](const Group& g) { return g.settings == record.settings; });
     if (group == groups.end()) {
@@ -39,6 +43,7 @@ std::vector<Group> group_by_settings(std::span<const Record> records) {
 std::string describe(const Settings& settings) {
   std::string text = fmt::format("stop = {}, tol = {:.0e}", settings.stop, settings.tol);
   if (settings.mode != "cold") text += ", " + settings.mode;
+  if (settings.timing != "once") text += ", medians of repeated solves";
   if (settings.threads != 1) text += fmt::format(", {} threads", settings.threads);
   if (std::isfinite(settings.time_limit_s)) {
     text += fmt::format(", time limit {}", format_time(settings.time_limit_s));

@@ -146,8 +146,7 @@ std::string html_report(const ReportInput& input, const PageFiles& files) {
   const bool with_view = !input.views.empty();
   return head(files, with_view) + "<body>\n" + top(input, reports) + "<div class=\"layout\">\n" +
          navigation(reports.front(), !groups.front().methods.empty()) + "<main>\n" + body.main +
-         views_section(input) +
-         section_of("environment", environment_block(input.records, input.command)) +
+         views_section(input) + section_of("environment", environment_block(input)) +
          section_of("limits", limits_block()) + "</main>\n</div>\n" +
          scripts(files, body.data, with_view) + "</body>\n</html>\n";
 }

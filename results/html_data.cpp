@@ -69,6 +69,21 @@ json axis(const Axis& a) {
           {"high", a.high},   {"falling", a.falling},         {"ticks", marks}};
 }
 
+// null: not solved, false: not run.
+json times_json(const std::vector<std::optional<double>>& times_s) {
+  json times = json::array();
+  for (const auto& time_s : times_s) {
+    if (!time_s) {
+      times.push_back(false);
+    } else if (!std::isfinite(*time_s)) {
+      times.push_back(nullptr);
+    } else {
+      times.push_back(std::strtod(fmt::format("{:.5g}", *time_s).c_str(), nullptr));
+    }
+  }
+  return times;
+}
+
 json series_json(const Series& s, std::size_t colours, std::size_t dash) {
   json x = json::array(), y = json::array(), low = json::array(), high = json::array();
   bool intervals = false;
@@ -82,6 +97,7 @@ json series_json(const Series& s, std::size_t colours, std::size_t dash) {
   json series = {{"name", s.name}, {"note", s.note}, {"colour", s.style % colours},
                  {"dash", dash},   {"x", x},         {"y", y}};
   if (intervals) series.update({{"low", low}, {"high", high}});
+  if (!s.times_s.empty()) series["times"] = times_json(s.times_s);
   return series;
 }
 

@@ -131,7 +131,7 @@ void Journal::append(std::span<const Record> records) {
 
 void Journal::flush_if_due() {
   const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - waiting_since_;
-  if (unsynced_ && waited.count() >= kFlush_s) flush();
+  if (waited.count() >= kGroup_s) flush();
 }
 
 void Journal::write_lines(std::string_view lines) {
@@ -155,6 +155,7 @@ void Journal::write_lines(std::string_view lines) {
 }
 
 void Journal::flush() {
+  if (!unsynced_) return;
   if (::fdatasync(fd_) != 0) throw OutputError(path_.string(), reason());
   unsynced_ = false;
 }

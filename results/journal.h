@@ -35,12 +35,15 @@ JournalContent read_journal(const std::filesystem::path& path);
 JournalContent read_results(const std::filesystem::path& results_dir);
 
 /// Appends records to a journal, one JSON line each. A record is with the system when append()
-/// returns, so that no kill of this process can lose it, and on disk within kFlush_s of the next
-/// call of append() or flush_if_due(), so that a power loss costs at most the last kFlush_s. Holds
-/// a lock, so that two campaigns never write to one journal.
+/// returns, so that no kill of this process can lose it. It is on disk within kFlush_s if
+/// flush_if_due() is called every kAsk_s, so that a power loss costs at most the last kFlush_s.
+/// Records that come within kGroup_s share one sync. Holds a lock, so that two campaigns never
+/// write to one journal.
 class Journal {
  public:
   static constexpr double kFlush_s = 0.1;
+  static constexpr double kGroup_s = 0.5 * kFlush_s;  ///< the rest is for asking late, and the sync
+  static constexpr double kAsk_s = 0.25 * kFlush_s;
 
   /// Opens or creates the journal; terminates a torn last line. Throws problems::OutputError when
   /// the place is not writable or another process holds the lock.
@@ -52,12 +55,13 @@ class Journal {
   /// The records of one task: all of their lines or, with problems::OutputError (disk full), none.
   void append(std::span<const Record> records);
   void append(const Record& record) { append(std::span(&record, 1)); }
-  /// Syncs to disk what has waited for kFlush_s. Throws problems::OutputError.
+  /// Syncs to disk what has waited for kGroup_s. Throws problems::OutputError.
   void flush_if_due();
+  /// Syncs to disk what has not been. Throws problems::OutputError.
+  void flush();
 
  private:
   void write_lines(std::string_view lines);
-  void flush();
 
   std::filesystem::path path_;
   int fd_ = -1;

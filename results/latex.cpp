@@ -144,8 +144,8 @@ std::string latex_report(const ReportInput& input) {
                         list(report.verdict.limits));
     for (const Section& section : report.sections) text += section_text(section);
   }
-  return text + block_text(environment_block(input.records, input.command)) +
-         block_text(limits_block()) + "\\end{document}\n";
+  return text + block_text(environment_block(input)) + block_text(limits_block()) +
+         "\\end{document}\n";
 }
 
 }  // namespace conebench::results

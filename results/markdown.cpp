@@ -102,8 +102,7 @@ std::string markdown_report(const ReportInput& input) {
       summary_text(input.records));
   const auto groups = group_by_settings(input.records);
   for (std::size_t g = 0; g < groups.size(); ++g) text += group_sections(groups, g, input);
-  return text + markdown(environment_block(input.records, input.command), kSection) +
-         markdown(limits_block(), kSection);
+  return text + markdown(environment_block(input), kSection) + markdown(limits_block(), kSection);
 }
 
 }  // namespace conebench::results

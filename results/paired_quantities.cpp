@@ -98,6 +98,20 @@ double iterations_of(const Record& record) {
   return static_cast<double>(std::max<std::int64_t>(record.iterations, 1));
 }
 
+// No interval: a maximum of what was not drawn is not known.
+Quantity worst_iterations(Pairs pairs) {
+  Quantity worst{.name = "worst(iterations)"};
+  for (const RowPair& pair : pairs) {
+    if (!pair.both_solved()) continue;
+    const double of_pair = iterations_of(*pair.fresh) / iterations_of(*pair.base);
+    if (worst.value && of_pair <= *worst.value) continue;
+    worst.value = of_pair;
+    worst.base = iterations_of(*pair.base);
+    worst.fresh = iterations_of(*pair.fresh);
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::vector<Quantity> quantities_of(Pairs pairs, std::size_t scenes) {
@@ -115,6 +129,7 @@ std::vector<Quantity> quantities_of(Pairs pairs, std::size_t scenes) {
       mean_ratio(
           "iterations", pairs, scenes, [](const RowPair& p) { return iterations_of(*p.base); },
           [](const RowPair& p) { return iterations_of(*p.fresh); }, 0.0),
+      worst_iterations(pairs),
       ratio(
           "solved", scenes,
           [&](Weights w) { return count_if(pairs, std::mem_fn(&RowPair::base_solved), w); },

@@ -46,6 +46,9 @@ struct Series {
   std::string note{};     ///< in the legend: "48/82"
   std::size_t style = 0;  ///< colour and dash: the solver's place in the ranking
   std::vector<PlotPoint> points{};
+  /// Of a performance profile: the solver's time on each problem [s], infinite where not solved,
+  /// nothing where not run, for the page, which compares those that are shown.
+  std::vector<std::optional<double>> times_s{};
 };
 
 enum class Mark {

@@ -46,8 +46,13 @@ Status status_or_throw(const std::string& name) {
 }
 
 Settings settings_from(const json& j) {
-  return {j.at("tol"),  number_from(j.at("time_limit_s")),    j.at("memory_limit_bytes"),
-          j.at("stop"), j.value("mode", std::string("cold")), j.value("threads", 1)};
+  return {j.at("tol"),
+          number_from(j.at("time_limit_s")),
+          j.at("memory_limit_bytes"),
+          j.at("stop"),
+          j.value("mode", std::string("cold")),
+          j.value("threads", 1),
+          j.value("timing", std::string("once"))};
 }
 
 json to_json(const SequencePlace& place) {
@@ -112,10 +117,10 @@ std::string sequence_key(const Record& record) {
   const Settings& s = record.settings;
   const std::string& what =
       record.sequence.id.empty() ? record.problem.content_sha256 : record.sequence.id;
-  return short_hash(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", what,
+  return short_hash(fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}\n{}", what,
                                 record.solver, record.solver_build, s.tol, s.time_limit_s,
                                 s.memory_limit_bytes, s.stop, s.mode, s.threads, record.repetition,
-                                record.host.host_class(), record.donor));
+                                record.host.host_class(), record.donor, s.timing));
 }
 
 std::string task_key(const Record& record) {
@@ -148,6 +153,7 @@ json to_json(const Record& r) {
           {"stop", r.settings.stop},
           {"mode", r.settings.mode},
           {"threads", r.settings.threads},
+          {"timing", r.settings.timing},
           {"solver_build", r.solver_build},
           {"repetition", r.repetition},
           {"sequence", to_json(r.sequence)},

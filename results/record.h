@@ -28,6 +28,7 @@ struct Settings {
   std::string stop = "common";           ///< "common" or "own": see solvers::StopTest
   std::string mode = "cold";             ///< what a solve starts from: see harness::Mode
   int threads = 1;                       ///< that the solver may use
+  std::string timing = "once";           ///< "once", or "repeated": the median of many solves
 
   bool operator==(const Settings&) const = default;
 };

@@ -15,10 +15,11 @@ namespace conebench::results {
 /// What a report is made of.
 struct ReportInput {
   std::span<const Record> records;
-  std::string command{};                 ///< that made the results; empty if unknown
-  std::vector<SceneCost> scene_costs{};  ///< of the scenes whose engine was run
-  std::vector<ProblemView> views{};      ///< hardest first
-  std::string no_views{};                ///< why there are none, or not more
+  std::string command{};                     ///< that made the results; empty if unknown
+  std::vector<std::string> machine_marks{};  ///< what speaks against the times, a line each
+  std::vector<SceneCost> scene_costs{};      ///< of the scenes whose engine was run
+  std::vector<ProblemView> views{};          ///< hardest first
+  std::string no_views{};                    ///< why there are none, or not more
 };
 
 /// Where it goes.
@@ -34,6 +35,10 @@ std::vector<std::string> report_formats();
 
 /// The ranking at one tolerance as a padded Markdown table; reads well in a terminal.
 std::string ranking_table(std::span<const Record> records, double tol);
+
+/// What its reader must know besides: who solved nothing, and whose times are too long there. May
+/// be empty.
+std::string ranking_remark(std::span<const Record> records, double tol);
 
 /// The whole report as Markdown.
 std::string markdown_report(const ReportInput& input);

@@ -3,10 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
-#include "results/report.h"
+#include "results/one_host.h"
 
 namespace conebench::results {
 namespace {
@@ -34,7 +35,48 @@ TextTable ranking(std::span<const Record> records, double tol) {
   return table;
 }
 
+// The first of many.
+std::vector<std::string> marks_shown(const std::vector<std::string>& marks) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < std::min(marks.size(), kMost); ++i) {
+    shown.push_back("**times in doubt:** " + marks[i]);
+  }
+  if (marks.size() > kMost) {
+    shown.push_back(fmt::format("and {} more such marks, in campaign*.json", marks.size() - kMost));
+  }
+  return shown;
+}
+
+// Those that brought no problem to `tol`, best first as the others.
+std::string without_success(std::span<const Rank> lines) {
+  std::string names;
+  for (const Rank& line : lines) {
+    if (line.solved == 0 && line.problems > 0)
+      names += (names.empty() ? "" : ", ") + tick(line.solver);
+  }
+  return names.empty() ? "" : "Solved nothing, so without a place: " + names + ". ";
+}
+
+// Contenders of which only the time of the whole run, to a tighter tolerance, is known.
+std::string without_curve(std::span<const Record> records, double tol) {
+  std::set<std::string> names;
+  double own = tol;
+  for (const Record& record : records) {
+    if (!record.curve.empty() || !std::isfinite(time_to_tolerance(record, tol))) continue;
+    names.insert(tick(contender(record)));
+    own = std::min(own, record.settings.tol);
+  }
+  if (own >= tol || names.empty()) return {};
+  return fmt::format("Of {} only the time to {:.0e} is known, which is an upper bound here. ",
+                     fmt::join(names, ", "), own);
+}
+
 }  // namespace
+
+std::string ranking_remark(std::span<const Record> records, double tol) {
+  return without_success(rank(make_time_table(records, tol))) + without_curve(records, tol);
+}
 
 std::string ranking_table(std::span<const Record> records, double tol) {
   return ranking(records, tol).text();
@@ -60,8 +102,9 @@ std::vector<Block> ranking_blocks(const Group& group) {
   std::vector<Block> blocks;
   if (group.methods.empty()) return blocks;
   for (const double tol : group.tolerances()) {
-    blocks.push_back(
-        {fmt::format("Verified eta <= {:.0e}", tol), {ranking(group.methods, tol)}, {}});
+    blocks.push_back({fmt::format("Verified eta <= {:.0e}", tol),
+                      {ranking(group.methods, tol)},
+                      ranking_remark(group.methods, tol)});
   }
   return blocks;
 }
@@ -100,7 +143,8 @@ Block status_block(const Group& group) {
   return {"How the tasks ended", {std::move(table)}, {}};
 }
 
-Block environment_block(std::span<const Record> records, const std::string& command) {
+Block environment_block(const ReportInput& input) {
+  const auto& records = input.records;
   std::vector<Host> hosts;
   std::string first = records.front().started_at, last = first, text;
   for (const Record& r : records) {
@@ -113,8 +157,15 @@ Block environment_block(std::span<const Record> records, const std::string& comm
                         h.cores == 1 ? "" : "s", h.version, h.compiler, h.build);
   }
   text += fmt::format("- tasks started from {} to {}", first, last);
-  if (!command.empty()) text += fmt::format("\n- command: `{}`", command);
+  if (!input.command.empty()) text += fmt::format("\n- command: `{}`", input.command);
   if (hosts.size() > 1) text += "\n- **Times from different machines do not compare.**";
+  if (const std::size_t left_out = OneHost(records).left_out(); left_out > 0) {
+    text += fmt::format(
+        "\n- {} rows are in no ranking: their problem was solved on another kind of machine, by "
+        "more solvers or later",
+        left_out);
+  }
+  for (const std::string& mark : marks_shown(input.machine_marks)) text += "\n- " + mark;
   return {"Environment", {}, text};
 }
 

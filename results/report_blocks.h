@@ -6,6 +6,7 @@
 
 #include "results/block.h"
 #include "results/group_numbers.h"
+#include "results/report.h"
 
 namespace conebench::results {
 
@@ -21,8 +22,8 @@ std::string ranking_note();
 /// How many tasks of each solver ended how, models included.
 Block status_block(const Group& group);
 
-/// Machines, dates, command.
-Block environment_block(std::span<const Record> records, const std::string& command);
+/// Machines, dates, command, and what speaks against the times.
+Block environment_block(const ReportInput& input);
 
 /// What no report of this program can say.
 Block limits_block();

@@ -31,7 +31,7 @@ Section ranking_section(const GroupNumbers& n) {
   auto blocks = ranking_blocks(n.group());
   for (std::size_t i = blocks.size(); i-- > 0;) {
     const bool own = i + 1 == blocks.size();
-    if (own) blocks[i].text = ranking_note();
+    if (own) blocks[i].text += ranking_note();
     add(section, std::move(blocks[i]), !own);
   }
   add(section, apart_block(n));

@@ -22,6 +22,15 @@ std::size_t index_of(const TimeTable& table, const std::string& solver) {
   return static_cast<std::size_t>(found - table.solvers.begin());
 }
 
+std::vector<std::optional<double>> times_of(const TimeTable& table, const std::string& solver) {
+  const std::size_t s = index_of(table, solver);
+  std::vector<std::optional<double>> times_s;
+  for (const auto& row : table.rows) {
+    times_s.push_back(row.status[s] ? std::optional(row.time_s[s]) : std::nullopt);
+  }
+  return times_s;
+}
+
 std::string count_of(const Rank& line) { return fmt::format("{}/{}", line.solved, line.problems); }
 
 // One series a solver, best first; `points` is asked for by the index in the table.
@@ -77,7 +86,8 @@ Plot profile_plot(const TimeTable& table, std::span<const Rank> ranking) {
             .reading =
                 "The share of problems on which a solver was within a factor of the fastest "
                 "one. At 1: how often it was the fastest; at the right: how many it solves "
-                "at all. Depends on who is compared.",
+                "at all. Depends on who is compared: hide a solver in the page, and it is made "
+                "anew for the others.",
             .mark = Mark::kSteps,
             .x = {.label = "time over the fastest solver's [-]",
                   .quantity = Quantity::kRatio,
@@ -92,6 +102,7 @@ Plot profile_plot(const TimeTable& table, std::span<const Rank> ranking) {
     if (points.empty() || points.front().x > 1.0) points.insert(points.begin(), {.x = 1.0});
     return points;
   });
+  for (Series& series : plot.series) series.times_s = times_of(table, series.name);
   return plot;
 }
 

@@ -20,7 +20,7 @@ namespace conebench::results {
 ///
 ///   problem    id, problem (its name), content_sha256, path, family, cones
 ///   solver     id, solver, kind, solver_build
-///   settings   id, tol, time_limit_s, memory_limit_bytes, stop, mode, threads
+///   settings   id, tol, time_limit_s, memory_limit_bytes, stop, mode, threads, timing
 ///   host       id, host (JSON)
 ///   status     id, status (its name)
 ///   task       id, task_key, problem_id, solver_id, settings_id, host_id, status_id, and every
@@ -32,14 +32,14 @@ namespace conebench::results {
 ///   outcome    settings_id, tol, contender_id, problem_id, time_s (NULL: not solved), status_id,
 ///              compared: what a task's repetitions come to (outcome_of) at each tolerance of
 ///              tolerance_ladder(); compared = 1 where every contender of the settings was run.
-///              Models are left out.
+///              Models are left out, and so is what OneHost does not count.
 ///   solved     settings_id, tol, contender_id, solved, problems: counts of outcome where compared
 ///
 /// Indexes: outcome by its key (settings_id, tol, contender_id, problem_id), solved by its key,
 /// task by task_key (unique), by problem_id, and by (settings_id, solver_id, status_id). PRAGMA
 /// application_id is kStoreId, PRAGMA user_version is kStoreVersion.
 inline constexpr int kStoreId = 0x636f6e62;
-inline constexpr int kStoreVersion = 2;
+inline constexpr int kStoreVersion = 3;
 
 /// Replaces `path` in one step: a reader sees the old store or the new one. Throws InputError when
 /// two records are of the same task, OutputError when it cannot be written.

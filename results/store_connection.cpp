@@ -56,8 +56,8 @@ Store::Connection::Connection(const std::filesystem::path& file)
 
 std::vector<std::pair<Settings, std::int64_t>> Store::Connection::settings() {
   SQLite::Statement row(database,
-                        "SELECT id, tol, time_limit_s, memory_limit_bytes, stop, mode, threads "
-                        "FROM settings ORDER BY id");
+                        "SELECT id, tol, time_limit_s, memory_limit_bytes, stop, mode, threads, "
+                        "timing FROM settings ORDER BY id");
   std::vector<std::pair<Settings, std::int64_t>> found;
   while (row.executeStep()) {
     const Settings settings = {
@@ -66,7 +66,8 @@ std::vector<std::pair<Settings, std::int64_t>> Store::Connection::settings() {
         .memory_limit_bytes = static_cast<std::uint64_t>(row.getColumn(3).getInt64()),
         .stop = row.getColumn(4).getString(),
         .mode = row.getColumn(5).getString(),
-        .threads = row.getColumn(6).getInt()};
+        .threads = row.getColumn(6).getInt(),
+        .timing = row.getColumn(7).getString()};
     found.emplace_back(settings, row.getColumn(0).getInt64());
   }
   return found;

@@ -32,6 +32,7 @@ inline constexpr Column kColumns[] = {
     {"stop", "settings", Kind::kText},
     {"mode", "settings", Kind::kText},
     {"threads", "settings", Kind::kInteger},
+    {"timing", "settings", Kind::kText},
     {"host", "host", Kind::kJson},
     {"task_key", "task", Kind::kText},
     {"repetition", "task", Kind::kInteger},

@@ -11,6 +11,7 @@
 
 #include "problems/error.h"
 #include "results/builds.h"
+#include "results/one_host.h"
 #include "results/output.h"
 #include "results/store.h"
 #include "results/store_outcomes.h"
@@ -114,7 +115,8 @@ std::vector<Run> write_tasks(SQLite::Database& database, std::span<const Record>
   }
   Insert task(database, "task", id_names + ", status_id"), curve(database, "curve", "task_id");
 
-  const Builds builds(records);
+  const OneHost hosts(records);
+  const Builds builds(records, hosts);
   std::vector<Run> runs;
   std::unordered_map<std::string, std::int64_t> problem_of_content, contenders;
   std::unordered_set<std::string> keys;
@@ -132,7 +134,7 @@ std::vector<Run> write_tasks(SQLite::Database& database, std::span<const Record>
 
     const std::int64_t problem =
         problem_of_content.try_emplace(record.problem.content_sha256, ids[1]).first->second;
-    if (record.kind == "model") continue;
+    if (record.kind == "model" || !hosts.counts(record)) continue;
     const auto next = static_cast<std::int64_t>(contenders.size()) + 1;
     const std::string name = contender(builds.name(record), record.donor);
     const auto contender_id = contenders.try_emplace(name, next).first->second;

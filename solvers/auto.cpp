@@ -8,6 +8,7 @@
 
 #include "problems/residual.h"
 #include "solvers/aclm.h"
+#include "solvers/apgd.h"
 #include "solvers/gs.h"
 #include "solvers/ipm.h"
 #include "solvers/newton/newton.h"
@@ -22,6 +23,7 @@ using problems::Problem;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the work that the lane has done
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
+constexpr int kFirstSteps = 100;     // of apgd
 constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
 constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
@@ -53,23 +55,40 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
   return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
 }
 
+// Lane::first_promise of each.
+struct FirstPromise {
+  double gs, apgd, prox_newton, newton_ac, ipm, aclm;
+};
+constexpr FirstPromise kOnGrid{30000.0, 30000.0, 0.0, 60000.0, 60000.0, 50000.0};
+// Where W is singular for sure, the last three need more and dearer factorisations.
+constexpr FirstPromise kSingular{1.0, 0.0, 300.0, 15000.0, 15000.0, 10000.0};
+constexpr FirstPromise kOtherwise{1.0, 0.0, 300.0, 300.0, 1500.0, 1500.0};
+
+FirstPromise first_promise(const Problem& problem) {
+  if (!problem.is_primal()) return kOtherwise;
+  // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
+  const auto entries = static_cast<std::int64_t>(problem.H().nonZeros());
+  if (entries > 12 * static_cast<std::int64_t>(problem.rows())) return kOnGrid;
+  return problem.rows() > problem.dofs() ? kSingular : kOtherwise;
+}
+
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
+    const FirstPromise promise = first_promise(problem);
     if (!gauss_seidel_refuses(problem, kSkipping)) {
-      lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); }, 0.0,
-                        kFirstSweeps, 0, 0.1});
+      lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); },
+                        promise.gs, kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
-    // Where W is singular for sure, the others need more and dearer factorisations.
-    const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
-    lanes_.push_back({"prox-newton", make_proximal_newton, 300.0, 1, 80, 0.1});
+    lanes_.push_back({"apgd", make_apgd, promise.apgd, kFirstSteps, 1000, 0.0});
+    lanes_.push_back({"prox-newton", make_proximal_newton, promise.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
-                      singular ? 15000.0 : 300.0, 1, 15, 1e-2});
-    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); },
-                      singular ? 15000.0 : 1500.0, 1, 30, 0.0});
+                      promise.newton_ac, 1, 15, 1e-2});
+    lanes_.push_back(
+        {"ipm", [](const Problem& p) { return make_ipm(p); }, promise.ipm, 1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      singular ? 10000.0 : 1500.0, 1, 60, 0.1});
+                      promise.aclm, 1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {
@@ -81,7 +100,7 @@ class Automatic final : public Iteration {
       lane.steps = 0;
       lane.over = false;
     }
-    begin_turn(0);
+    begin_turn(first_lane());
   }
 
   State advance() override {
@@ -120,6 +139,13 @@ class Automatic final : public Iteration {
   bool turn_is_over(const Lane& lane) const {
     if (lane.steps < lane.first_steps) return false;
     return turn_s_ >= kTurnGrowth * (lane.done_s - turn_s_);
+  }
+
+  std::size_t first_lane() const {
+    const auto first = std::min_element(
+        lanes_.begin(), lanes_.end(),
+        [](const Lane& a, const Lane& b) { return a.first_promise < b.first_promise; });
+    return static_cast<std::size_t>(first - lanes_.begin());
   }
 
   void begin_turn(std::size_t next) {
@@ -199,7 +225,8 @@ Method automatic() {
   Method method{
       .name = "auto",
       .kind = Kind::kMethod,
-      .summary = "gs, prox-newton, newton-ac, aclm and ipm in turns; the one that gets on goes on",
+      .summary =
+          "apgd, gs, prox-newton, newton-ac, ipm, aclm in turns; the one that gets on goes on",
       .source = "ours",
       .parameters = {},
       .make = {}};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/generators/crowd.h"
 #include "problems/engine/scene_file.h"
 
 namespace conebench::dem {
@@ -29,6 +30,8 @@ std::string show(const Bed& bed) {
 
 void place(const Bed& bed, Nursery& nursery) {
   const double cell = 2.0 * bed.radius_m;
+  const double across = bed.width_m / cell;
+  check_crowd(nursery.dimension() == 2 ? across : across * across, "beds", nursery);
   const int side = std::max(1, static_cast<int>(std::ceil(bed.width_m / cell - 1e-9)));
   const int rows = nursery.dimension() == 2 ? 1 : side;
   Seedling ball;

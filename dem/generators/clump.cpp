@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem/generators/crowd.h"
 #include "problems/engine/scene_file.h"
 
 namespace conebench::dem {
@@ -42,6 +43,7 @@ void place(const Clump& clump, Nursery& nursery) {
       flat ? Eigen::Vector3d(r, 0.0, r * std::numbers::sqrt3) : Eigen::Vector3d::Constant(side);
   // Room for a ball is room for it, whatever its distance rounds to.
   const double reach = clump.radius_m - r + 1e-9 * r;
+  check_crowd(std::pow(reach / r, flat ? 2 : 3), "clumps", nursery);
   const int most = static_cast<int>(reach / r);
   const int most_y = flat ? 0 : most;
   Seedling ball;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "dem/generators/crowd.h"
 #include "problems/engine/scene_file.h"
 
 namespace conebench::dem {
@@ -43,6 +44,9 @@ void place(const Column& column, Nursery& nursery) {
   const double cell = 2.0 * largest;
   // Room for n cells is room for n, whatever the quotient rounds to.
   const auto cells_in = [&](double length) { return static_cast<int>(length / cell + 1e-9); };
+  const double across = column.width_m / cell;
+  check_crowd(across * (nursery.dimension() == 2 ? 1.0 : across) * column.height_m / cell,
+              "columns", nursery);
   const int side = cells_in(column.width_m);
   const int rows = nursery.dimension() == 2 ? 1 : side;
   const int layers = cells_in(column.height_m);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem/generators/crowd.h"
 #include "dem/generators/extent.h"
 #include "problems/engine/scene_file.h"
 #include "problems/error.h"
@@ -119,11 +120,16 @@ void place(const Deposition& deposition, Nursery& nursery) {
   const bool flat = nursery.dimension() == 2;
   const Eigen::Vector3d sides = deposition.high_m - deposition.low_m;
   std::int64_t cells[3];
+  double room = 1.0;
   for (int k = 0; k < 3; ++k) {
-    // Room for n cells is room for n, whatever the quotient rounds to.
-    const double fit = sides[k] / (2.0 * supply.largest_m()) + 1e-9;
-    cells[k] = flat && k == 1 ? 1 : static_cast<std::int64_t>(fit);
+    // Room for n cells is room for n, whatever the quotient rounds to. Of more than a million a
+    // side only the first are used, so that their product is a number.
+    const double fit = flat && k == 1 ? 1.0 : sides[k] / (2.0 * supply.largest_m()) + 1e-9;
+    room *= fit;
+    cells[k] = static_cast<std::int64_t>(std::min(fit, 1e6));
   }
+  check_crowd(deposition.count ? static_cast<double>(*deposition.count) : room, "depositions",
+              nursery);
   const std::int64_t capacity = cells[0] * cells[1] * cells[2];
   const std::int64_t count = deposition.count.value_or(std::max<std::int64_t>(1, capacity));
   problems::require(count <= capacity, nursery.subject(), "depositions: count: ", count,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "dem/generators/crowd.h"
 #include "dem/generators/extent.h"
 #include "problems/engine/scene_file.h"
 #include "problems/error.h"
@@ -41,6 +42,10 @@ Lattice read_lattice(engine::TomlReader in) {
   lattice.base_m = in.vector("base_m", lattice.base_m);
   const auto counts = in.integers("counts", 3, 3, 1);
   for (int k = 0; k < 3; ++k) {
+    if (static_cast<double>(counts[static_cast<std::size_t>(k)]) > kLargestCrowd) {
+      in.fail("counts", fmt::format("found {}, expected at most {:g}",
+                                    counts[static_cast<std::size_t>(k)], kLargestCrowd));
+    }
     lattice.counts[k] = static_cast<int>(counts[static_cast<std::size_t>(k)]);
   }
   if (in.has("spacing_m")) lattice.spacing_m = read_size(in, "spacing_m");
@@ -74,6 +79,7 @@ void place(const Lattice& lattice, Nursery& nursery) {
   problems::require(nursery.dimension() == 3 || lattice.counts.y() == 1, nursery.subject(),
                     "lattices: counts: found ", lattice.counts.y(),
                     " along y, expected 1 in a scene of dimension 2");
+  check_crowd(lattice.counts.cast<double>().prod(), "lattices: counts", nursery);
   Seedling body;
   body.radius_m = lattice.radius_m;
   body.material = lattice.material;

@@ -180,26 +180,32 @@ void add_advise(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AdviseOptions>();
   CLI::App* verb = app.add_subcommand("advise", "Which solver for this scene and this time");
   verb->add_option("SCENE|PATH", options->subject, "A scene, or problem files and folders")
+      ->type_name("")
       ->required();
-  verb->add_option("--budget", options->budget, "Wall clock of one step, e.g. 4ms")->required();
+  verb->add_option("--budget", options->budget, "Wall clock of one step, e.g. 4ms")
+      ->type_name("DURATION")
+      ->required();
   verb->add_option("--tol", options->tol, "On eta")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   verb->add_option("--confidence", options->confidence, "Of the probability that is stated")
       ->check(CLI::Range(0.5, 0.9999))
       ->capture_default_str();
-  verb->add_option("-s,--solver", options->solvers, "Variants to race (default: ours)");
+  verb->add_option("-s,--solver", options->solvers, "Variants to race (default: ours)")
+      ->type_name("SOLVER");
   verb->add_option("--samples", options->samples, "Steps drawn from each run of the scene")
       ->check(CLI::Range(2, 100000))
       ->capture_default_str();
   verb->add_option("--sample-time", options->sample_time, "Longest run of the scene")
+      ->type_name("DURATION")
       ->capture_default_str();
   verb->add_option("--set", options->overrides,
                    "Another value of the scene, such as material.friction=0.5")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   verb->add_option("-o,--output", options->policy_file,
-                   "Write the policy here; a scene takes it as solver.name = \"policy:FILE\"");
+                   "Write the policy here; a scene takes it as solver.name = \"policy:FILE\"")
+      ->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->footer("Exit code: 0 if the advice meets the budget, 1 if none does, 2 bad input.");
   verb->callback([options, &exit_code] { exit_code = run_advise(*options); });

@@ -23,5 +23,7 @@ void add_compare(CLI::App& app, int& exit_code);
 void add_advise(CLI::App& app, int& exit_code);
 void add_demo(CLI::App& app, int& exit_code);
 void add_doctor(CLI::App& app, int& exit_code);
+void add_manual(CLI::App& app, int& exit_code);
+void add_completion(CLI::App& app, int& exit_code);
 
 }  // namespace conebench::harness

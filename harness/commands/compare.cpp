@@ -145,13 +145,17 @@ void add_compare(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CompareOptions>();
   CLI::App* verb = app.add_subcommand(
       "compare", "Compare two sets of results task by task; with --gate, exit 1 when it fails");
-  verb->add_option("BASE", options->base, "Results folder to compare with")->required();
-  verb->add_option("NEW", options->fresh, "Results folder to judge")->required();
+  verb->add_option("BASE", options->base, "Results folder to compare with")
+      ->type_name("DIR")
+      ->required();
+  verb->add_option("NEW", options->fresh, "Results folder to judge")->type_name("DIR")->required();
   verb->add_option("--gate", options->gate,
                    "e.g. 'sgm(time) < 1.05 && failures <= 0'. Ratios NEW/BASE: sgm(time), "
-                   "p50(time), p99(time), max(time), gm(eta), iterations, solved; counts: failures "
+                   "p50(time), p99(time), max(time), gm(eta), iterations, worst(iterations) "
+                   "(of one pair), solved; counts: failures "
                    "(solved in BASE, not in NEW), missing (rows of BASE that NEW lacks). A ratio "
-                   "that is undefined passes no comparison; sgm(time) is 1 inside the noise floor");
+                   "that is undefined passes no comparison; sgm(time) is 1 inside the noise floor")
+      ->type_name("CONDITION");
   verb->add_flag("--json", options->json, "One JSON object instead of a table");
   verb->callback([options, &exit_code] { exit_code = compare(*options); });
 }

@@ -7,6 +7,7 @@
 #include "harness/command_line.h"
 #include "harness/commands/commands.h"
 #include "harness/demo_files.h"
+#include "harness/diary.h"
 #include "harness/interrupt.h"
 #include "harness/report_views.h"
 #include "harness/step_costs.h"
@@ -142,6 +143,7 @@ int demo(const std::filesystem::path& folder, const std::filesystem::path& data)
   const auto written =
       results::write_report({.records = records,
                              .command = command_line(),
+                             .machine_marks = machine_marks(results_dir),
                              .scene_costs = read_scene_costs(results_dir),
                              .views = std::move(views.views),
                              .no_views = std::move(views.note)},
@@ -161,9 +163,11 @@ void add_demo(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "demo", "Simulate, export, solve with every kind of solver, report; less than 3 minutes");
   verb->add_option("-o,--output", options->folder, "Folder to write to")
+      ->type_name("DIR")
       ->capture_default_str()
       ->take_last();
   verb->add_option("--data", options->data, "More problem files, used where the folder exists")
+      ->type_name("DIR")
       ->take_last();
   verb->callback([options, &exit_code] { exit_code = demo(options->folder, options->data); });
 }

@@ -54,11 +54,14 @@ void add_export(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* verb = app.add_subcommand("export", "Run a scene and write its cone problems");
   add_scene_options(*verb, options->run);
-  verb->add_option("-o,--output", options->folder, "Folder for <scene>_<step>.h5")->required();
+  verb->add_option("-o,--output", options->folder, "Folder for <scene>_<step>.h5")
+      ->type_name("DIR")
+      ->required();
   CLI::Option* every = verb->add_option("--every", options->every, "Write every N-th step")
                            ->check(CLI::PositiveNumber);
   verb->add_option("--policy", options->policy,
                    "Which steps: all, every:N, N..M, hardest:K, reservoir:K or stratified:K")
+      ->type_name("all|every:N|N..M|hardest:K|reservoir:K|stratified:K")
       ->capture_default_str()
       ->excludes(every);
   verb->callback([options, &exit_code] { exit_code = export_steps(*options); });

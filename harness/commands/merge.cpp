@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "harness/commands/commands.h"
+#include "harness/diary.h"
 #include "harness/summary.h"
 #include "problems/error.h"
 #include "results/merge.h"
@@ -23,7 +24,10 @@ int merge(const MergeOptions& options) {
   results::Merger merger;
   for (const auto& folder : options.results_dirs) merger.add(load_records(folder));
   const auto folder = elsewhere ? options.output : options.results_dirs.front();
-  if (elsewhere) results::write_merged_journal(folder, merger.records());
+  if (elsewhere) {
+    results::write_merged_journal(folder, merger.records());
+    copy_diaries(options.results_dirs, folder);
+  }
   const auto store = folder / "results.db";
   results::write_store(store, merger.records());
   fmt::print(stderr, "{} records, {} of tasks that another folder had done as well\n",
@@ -38,9 +42,12 @@ void add_merge(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* verb = app.add_subcommand(
       "merge", "Join the journals of all shards, or of several results folders, in results.db");
-  verb->add_option("RESULTS_DIR", options->results_dirs, "Results folders")->required();
+  verb->add_option("RESULTS_DIR", options->results_dirs, "Results folders")
+      ->type_name("")
+      ->required();
   verb->add_option("-o,--output", options->output,
-                   "Folder for the joined journal and results.db (default: the only RESULTS_DIR)");
+                   "Folder for the joined journal and results.db (default: the only RESULTS_DIR)")
+      ->type_name("DIR");
   verb->callback([options, &exit_code] { exit_code = merge(*options); });
 }
 

@@ -84,7 +84,9 @@ void add_plan(CLI::App& app, int& exit_code) {
       "--slurm,--scripts", options->slurm,
       "Also write scripts: a Slurm array job with its merge, GNU parallel, a plain loop");
   verb->add_option("--jobs", options->jobs, "Problems read at a time")->capture_default_str();
-  verb->add_option("-o,--output", options->results_dir, "Results folder")->capture_default_str();
+  verb->add_option("-o,--output", options->results_dir, "Results folder")
+      ->type_name("DIR")
+      ->capture_default_str();
   verb->callback([options, &exit_code] { exit_code = plan(*options); });
 }
 

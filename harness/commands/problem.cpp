@@ -282,7 +282,9 @@ using Action = void (*)(const Options&, int&);
 CLI::App* add_verb(CLI::App& parent, const std::string& name, const std::string& help,
                    const std::shared_ptr<Options>& options, int& exit_code, Action action) {
   CLI::App* verb = parent.add_subcommand(name, help);
-  verb->add_option("path", options->paths, "problem files, or folders of them")->required();
+  verb->add_option("path", options->paths, "problem files, or folders of them")
+      ->type_name("")
+      ->required();
   verb->callback([options, &exit_code, action] { action(*options, exit_code); });
   return verb;
 }
@@ -295,7 +297,9 @@ void add_problem(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<Options>();
   const auto reads = [&](CLI::App* verb, bool filtered) {
     verb->add_flag("--json", o->json, "one JSON document instead of a table");
-    if (filtered) verb->add_option("--where", o->where, "e.g. 'cones > 1e3 && engine == \"mpm\"'");
+    if (!filtered) return;
+    verb->add_option("--where", o->where, "e.g. 'cones > 1e3 && engine == \"mpm\"'")
+        ->type_name("CONDITION");
   };
   reads(add_verb(*problem, "list", "one line for each problem", o, exit_code, list), true);
   reads(add_verb(*problem, "show", "all that is known of each problem", o, exit_code, show), true);
@@ -307,6 +311,7 @@ void add_problem(CLI::App& app, int& exit_code) {
       "and of each problem: is there a solution (proved), rank and condition of W");
   stats_verb
       ->add_option("--time-limit", o->time_limit, "for the proof of each, e.g. 500ms, 60s, 2min")
+      ->type_name("DURATION")
       ->needs(certificate)
       ->capture_default_str();
   reads(add_verb(*problem, "verify", "read, check and judge the stored solution (2 if bad)", o,
@@ -316,12 +321,14 @@ void add_problem(CLI::App& app, int& exit_code) {
   CLI::App* import_verb =
       add_verb(*problem, "import", "convert any format that we read to ours", o, exit_code,
                [](const Options& options, int&) { import(options); });
-  import_verb->add_option("-o,--output", o->output, "folder to write to")->required();
+  import_verb->add_option("-o,--output", o->output, "folder to write to")
+      ->type_name("DIR")
+      ->required();
   CLI::App* export_verb =
       add_verb(*problem, "export", "write one problem for other programs", o, exit_code,
                [](const Options& options, int&) { export_problem(options); });
   export_verb->get_option("path")->expected(1);
-  export_verb->add_option("-o,--output", o->output, "file to write")->required();
+  export_verb->add_option("-o,--output", o->output, "file to write")->type_name("FILE")->required();
   export_verb->add_option("--format", o->format, "fclib or conebench")
       ->check(CLI::IsMember({"fclib", "conebench"}));
   export_verb->add_flag("--standard", o->standard,

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "harness/commands/commands.h"
+#include "harness/diary.h"
 #include "harness/report_views.h"
 #include "harness/step_costs.h"
 #include "harness/summary.h"
@@ -33,6 +34,7 @@ int report(const ReportOptions& options) {
   const auto place = place_of(options);
   results::ReportInput input{.records = records,
                              .command = campaign_command(options.results_dir),
+                             .machine_marks = machine_marks(options.results_dir),
                              .scene_costs = read_scene_costs(options.results_dir),
                              .views = {},
                              .no_views = {}};
@@ -51,12 +53,16 @@ void add_report(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App* verb = app.add_subcommand(
       "report", "Turn results into a page to look at, tables and performance profiles");
-  verb->add_option("RESULTS_DIR", options->results_dir, "The -o of `conebench run`")->required();
+  verb->add_option("RESULTS_DIR", options->results_dir, "The -o of `conebench run`")
+      ->type_name("")
+      ->required();
   verb->add_option("-o,--output", options->output,
-                   "FILE.html, or a folder (default: RESULTS_DIR, and report.html in it)");
+                   "FILE.html, or a folder (default: RESULTS_DIR, and report.html in it)")
+      ->type_name("FILE|DIR");
   verb->add_option("--format", options->formats,
                    "html (the page), md (report.md, profile.svg), csv (results.csv), tex "
                    "(report.tex, pgfplots), gbench (gbench.json for Google Benchmark's compare.py)")
+      ->type_name("html|md|csv|tex|gbench")
       ->delimiter(',')
       ->capture_default_str();
   verb->callback([options, &exit_code] { exit_code = report(*options); });

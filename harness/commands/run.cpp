@@ -47,14 +47,18 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "run", "Run a campaign: every solver on every problem, one process a task; resumable");
   options->study.add_to(*verb);
-  verb->add_option("--shard", options->shard, "Part i of n, e.g. 3/20")->capture_default_str();
+  verb->add_option("--shard", options->shard, "Part i of n, e.g. 3/20")
+      ->type_name("I/N")
+      ->capture_default_str();
   verb->add_option("--jobs", options->jobs, "Tasks at a time; keep 1 for fair timing")
       ->capture_default_str();
   verb->add_option("--rerun", options->rerun,
                    "Finished tasks to run again: none, failed, timeouts or all")
+      ->type_name("none|failed|timeouts|all")
       ->capture_default_str();
   verb->add_option("-o,--output", options->results_dir,
                    "Results folder; without -p and -c its plan.json says what to run")
+      ->type_name("DIR")
       ->capture_default_str();
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }

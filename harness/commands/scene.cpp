@@ -51,7 +51,7 @@ void add_scene(CLI::App& app, int& exit_code) {
 
   auto name = std::make_shared<std::string>();
   CLI::App* show = verb->add_subcommand("show", "Print a scene with every default, as TOML");
-  show->add_option("SCENE", *name, "Built-in name or .toml file")->required();
+  show->add_option("SCENE", *name, "Built-in name or .toml file")->type_name("")->required();
   show->callback([name, &exit_code] {
     const engine::SceneText scene = find_scene(*name);
     fmt::print("{}", engine_of(scene).print(scene));

@@ -18,8 +18,9 @@ void keep_freed_memory() {
 }  // namespace
 
 void add_scene_options(CLI::App& verb, SceneRun& run) {
-  verb.add_option("SCENE", run.scene, "Built-in name or .toml file")->required();
-  verb.add_option("-s,--solver", run.engine.solver, "Step solver (default: the scene's)");
+  verb.add_option("SCENE", run.scene, "Built-in name or .toml file")->type_name("")->required();
+  verb.add_option("-s,--solver", run.engine.solver, "Step solver (default: the scene's)")
+      ->type_name("SOLVER");
   verb.add_option("--set", run.overrides,
                   "Another value of the scene, such as material.friction=0.5")
       ->type_name("KEY=VALUE")

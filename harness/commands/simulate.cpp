@@ -96,15 +96,18 @@ void add_simulate(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("simulate", "Run a scene through its engine");
   add_scene_options(*verb, options->run);
   verb->add_option("-o,--output", options->folder,
-                   "Folder for ParaView files, summary.json and history.csv (a line a step)");
+                   "Folder for ParaView files, summary.json and history.csv (a line a step)")
+      ->type_name("DIR");
   verb->add_option("--frames", options->frames, "Also draw N pictures (SVG) in the folder")
       ->check(CLI::PositiveNumber);
   verb->add_option("--colour", options->run.engine.colour,
-                   "Of the pictures: speed, or fraction (of volume, mpm)");
+                   "Of the pictures: speed, or fraction (of volume, mpm)")
+      ->type_name("speed|fraction");
   verb->add_option("--checkpoint-every", options->checkpoint_every,
                    "Save the run every N steps as checkpoint_<step>.cbor in the folder")
       ->check(CLI::PositiveNumber);
-  verb->add_option("--restart", options->restart, "Go on from a checkpoint of this scene");
+  verb->add_option("--restart", options->restart, "Go on from a checkpoint of this scene")
+      ->type_name("FILE");
   verb->add_flag("--json", options->json, "Print the summary as one JSON object");
   verb->callback([options, &exit_code] { exit_code = simulate(*options); });
 }

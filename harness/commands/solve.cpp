@@ -71,11 +71,15 @@ int solve(const SolveOptions& options) {
 void add_solve(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SolveOptions>();
   CLI::App* verb = app.add_subcommand("solve", "Solve one problem with one solver and verify it");
-  verb->add_option("FILE", options->file, "Problem in any format that we can import")->required();
+  verb->add_option("FILE", options->file, "Problem in any format that we can import")
+      ->type_name("")
+      ->required();
   verb->add_option("-s,--solver", options->solver, "Variant, e.g. gs[local=exact,omega=1.0]")
+      ->type_name("SOLVER")
       ->capture_default_str();
   options->settings.add_to(*verb);
-  verb->add_option("-o,--output", options->solution_file, "Write r, u, v to this HDF5 file");
+  verb->add_option("-o,--output", options->solution_file, "Write r, u, v to this HDF5 file")
+      ->type_name("FILE");
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->add_flag("--curve", options->curve, "With --json: (time, iteration, eta) of every look");
   verb->add_flag("--strict", options->strict, "Exit 4 when a claim of success is refuted");

@@ -122,7 +122,9 @@ void add_solver(CLI::App& app, int& exit_code) {
   list_verb->callback([options] { list(options->json); });
 
   CLI::App* show_verb = verb->add_subcommand("show", "A solver's parameters");
-  show_verb->add_option("NAME", options->name, "e.g. gs, or plugin:FILE")->required();
+  show_verb->add_option("NAME", options->name, "e.g. gs, or plugin:FILE")
+      ->type_name("SOLVER")
+      ->required();
   show_verb->add_flag("--json", options->json, "Print one JSON object");
   show_verb->callback([options] { show(options->name, options->json); });
 
@@ -132,15 +134,20 @@ void add_solver(CLI::App& app, int& exit_code) {
 
   CLI::App* check_verb = verb->add_subcommand(
       "check", "Run a solver on small problems of every kind, with known solutions");
-  check_verb->add_option("VARIANT", options->name, "e.g. gs[omega=0.8]")->required();
-  check_verb->add_option("PATH", options->paths, "Problem files or folders to use instead");
+  check_verb->add_option("VARIANT", options->name, "e.g. gs[omega=0.8]")
+      ->type_name("SOLVER")
+      ->required();
+  check_verb->add_option("PATH", options->paths, "Problem files or folders to use instead")
+      ->type_name("");
   check_verb->callback([options, &exit_code] { exit_code = check(options->name, options->paths); });
 
   CLI::App* new_verb = verb->add_subcommand(
       "new", "Write a solver of your own that works, to start from; prints its files");
   new_verb->add_option("NAME", options->name, "Letters, digits, '_' and '-'")->required();
-  new_verb->add_option("--language", options->language, "c, c++ or python")->capture_default_str();
-  new_verb->add_option("-o,--output", options->folder, "Folder (default: NAME)");
+  new_verb->add_option("--language", options->language, "c, c++ or python")
+      ->type_name("c|c++|python")
+      ->capture_default_str();
+  new_verb->add_option("-o,--output", options->folder, "Folder (default: NAME)")->type_name("DIR");
   new_verb->callback([options] {
     make_new(options->name, options->language,
              options->folder.empty() ? std::filesystem::path(options->name) : options->folder);

@@ -85,7 +85,9 @@ void add_status(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* verb =
       app.add_subcommand("status", "How much of a campaign is done, by solver, over all shards");
-  verb->add_option("RESULTS_DIR", options->results_dir, "The -o of `conebench run`")->required();
+  verb->add_option("RESULTS_DIR", options->results_dir, "The -o of `conebench run`")
+      ->type_name("")
+      ->required();
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->callback(
       [options, &exit_code] { exit_code = status(options->results_dir, options->json); });

@@ -165,6 +165,15 @@ TEST(Scene, OverlapsNameThePairUnlessTheyAreResolved) {
   EXPECT_GE((spheres.position[0] - spheres.position[1]).norm(), 0.2 * (1.0 - 1e-6));
 }
 
+TEST(Scene, StepsInWhichBodiesPassEachOtherAreRefused) {
+  EXPECT_THAT(error_of(changed("step_s = 1e-3", "step_s = 0.2")),
+              AllOf(HasSubstr("step_s: found 0.2, in which body 0 starts by moving 0.392"),
+                    HasSubstr("expected at most 0.2 m, its thickness")));
+  EXPECT_EQ(error_of(changed("step_s = 1e-3", "step_s = 0.1")), "no error");
+  const std::string fast = kScene + "velocity_m_s = [0, 300, 0]\n";
+  EXPECT_THAT(error_of(fast), HasSubstr("body 1 starts by moving 0.3"));
+}
+
 TEST(Scene, FixedBodiesCannotMove) {
   EXPECT_THAT(error_of(kScene + "fixed = true\nvelocity_m_s = [1, 0, 0]\n"),
               HasSubstr("bodies[1].velocity_m_s: a fixed body does not move"));
@@ -195,6 +204,8 @@ TEST(Scene, ColumnsFillTheirSection) {
   }
   EXPECT_THAT(error_of(text.replace(text.find("height_m = 0.1"), 14, "height_m = 0.01")),
               HasSubstr("does not fit"));
+  EXPECT_THAT(error_of(test::changed(text, "height_m = 0.01", "height_m = 1e9")),
+              HasSubstr("columns: asks for 1.25e+12 bodies, expected at most 1e+08"));
 }
 
 }  // namespace

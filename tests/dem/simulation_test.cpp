@@ -2,11 +2,13 @@
 
 #include "dem/simulation.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "dem/export.h"
 #include "problems/residual.h"
 #include "tests/dem/scene_helper.h"
+#include "tests/engine/scene_text.h"
 #include "tests/engine/small_solver.h"
 
 namespace conebench::test {
@@ -130,6 +132,52 @@ TEST(Step, CohesionReachesTheProblemAsKappa) {
     EXPECT_NEAR(view.answer->r[0], weight + 3.0 * scene.step_s, 1e-15);
   });
   simulation.run(3);
+}
+
+// The two terms of w exclude each other: a bond that is open has the gap's, so that it can be
+// pulled shut; a shut one that is hit has restitution's.
+TEST(Step, ContactsHaveEitherTheTermOfTheGapOrThatOfRestitution) {
+  dem::Scene scene = small_scene(
+      {.friction = 0.5, .restitution = 0.5, .tensile_force_N = 0.1, .rupture_distance_m = 1e-2});
+  add_floor(scene);
+  add_body(scene, {0.0, 0.0, 0.02}, 0.02).velocity_m_s = {0.0, 0.0, -0.8};
+  Simulation simulation(scene, small_solver());
+  int open = 0, shut = 0;
+  simulation.add_observer([&](const dem::StepView& view) {
+    const dem::Contact& contact = view.contacts->contacts()[0];
+    ASSERT_TRUE(view.problem && contact.bonded);
+    const double u_n = dem::relative_velocity(*view.before, contact).z();
+    if (contact.gap > 0.0) {
+      ++open;
+      EXPECT_DOUBLE_EQ(view.problem->w()[0], contact.gap / scene.step_s);
+    } else {
+      ++shut;
+      EXPECT_DOUBLE_EQ(view.problem->w()[0], 0.5 * std::min(u_n, 0.0));
+    }
+    EXPECT_DOUBLE_EQ(view.problem->cones()[0].kappa, 0.1 * scene.step_s);
+  });
+  // It is hit while shut, rises at 0.4 m/s against a bond of an eighth of its weight, and is back
+  // after 2 * 0.4 / 11 s.
+  simulation.run(1);
+  EXPECT_EQ(shut, 1);
+  EXPECT_NEAR(simulation.bodies().velocity[0].z(), 0.4, 1e-12);
+  simulation.run(100);
+  EXPECT_GT(open, 70);
+  EXPECT_GT(shut, 1);
+}
+
+// A step that is not long at first may become so: what falls 1.6 m is as fast as 5.6 m/s.
+TEST(Step, WhatSinksInTooDeepStopsTheRunAndIsNamed) {
+  dem::Scene scene = small_scene({.friction = 0.5});
+  scene.step_s = 0.01;
+  add_floor(scene);
+  add_body(scene, {0.0, 0.0, 1.6}, 0.02);
+  Simulation simulation(scene, small_solver());
+  const std::string error = input_error("small", [&] { simulation.run(100); });
+  EXPECT_THAT(error, testing::HasSubstr("body 0 and plane 0 overlap by 0.0"));
+  EXPECT_THAT(error, testing::HasSubstr("expected at most 0.02"));
+  EXPECT_THAT(error, testing::HasSubstr("smaller step_s (now 0.01)"));
+  EXPECT_LT(simulation.bodies().velocity[0].norm(), 6.0);
 }
 
 TEST(Step, FrictionlessContactsAreOneDimensional) {

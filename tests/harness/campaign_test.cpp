@@ -1,4 +1,5 @@
 #include "harness/campaign.h"
+#include "harness/diary.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -107,6 +108,23 @@ TEST_F(CampaignTest, RerunsWhatItIsToldTo) {
   again.rerun = Rerun::kAll;
   EXPECT_EQ(run(again, problems, solvers).done, 4u);
   EXPECT_THROW(rerun_from("some"), problems::InputError);
+}
+
+TEST_F(CampaignTest, AModelThatSolvesItsModelAndAProofAreNoFailures) {
+  const auto problems = problems_numbered(1);
+  solvers::Solver model = solver_that("model", [](auto&) {});  // far from the problem's solution
+  model.kind = solvers::Kind::kModel;
+  run(options(), problems, {model});
+  CampaignOptions again = options();
+  again.rerun = Rerun::kFailed;
+  EXPECT_EQ(run(again, problems, {model}).done, 0u);
+  auto proof = records();
+  ASSERT_EQ(proof.size(), 1u);
+  proof[0].kind = "method";
+  const auto tasks = tasks_of(small_plan({model}), problems);
+  EXPECT_EQ(open_tasks(tasks, proof, Rerun::kFailed).size(), 1u);
+  proof[0].status = Status::kInfeasible;
+  EXPECT_EQ(open_tasks(tasks, proof, Rerun::kFailed).size(), 0u);
 }
 
 TEST_F(CampaignTest, RepetitionsAreTasksOfTheirOwn) {
@@ -286,6 +304,16 @@ TEST_F(CampaignTest, AnotherBuildOrToleranceOrModeIsAnotherTask) {
   EXPECT_EQ(open_tasks(tasks_of(plan, problems), records, Rerun::kNone).size(), 0u);
   plan.modes = {Mode::kCold};
   EXPECT_EQ(open_tasks(tasks_of(plan, problems), records, Rerun::kNone).size(), 2u);
+}
+
+TEST_F(CampaignTest, TimesOfOneSolveAndOfManyAreDifferentTasks) {
+  const auto problems = problems_numbered(2);
+  run(options(), problems, {honest_solver()});
+  Plan often = small_plan({honest_solver()});
+  often.repeat_for_confidence = true;
+  EXPECT_EQ(run_campaign(options(), tasks_of(often, problems)).done, 2u);
+  EXPECT_EQ(run_campaign(options(), tasks_of(often, problems)).done, 0u);
+  EXPECT_EQ(run(options(), problems, {honest_solver()}).done, 0u);
 }
 
 TEST_F(CampaignTest, MoreJobsThanCoresAreRefused) {

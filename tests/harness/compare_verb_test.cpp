@@ -32,7 +32,7 @@ TEST_F(CompareVerbTest, EqualResultsPassTheGate) {
   EXPECT_THAT(ran.out, HasSubstr("54 pairs of rows"));
   EXPECT_THAT(ran.out, HasSubstr("gate passed"));
   for (const char* name : {"sgm(time)", "p50(time)", "p99(time)", "max(time)", "gm(eta)",
-                           "iterations", "solved", "failures", "missing"}) {
+                           "iterations", "worst(iterations)", "solved", "failures", "missing"}) {
     EXPECT_THAT(ran.out, HasSubstr(name));
   }
 }
@@ -46,6 +46,15 @@ TEST_F(CompareVerbTest, MoreIterationsFailTheGate) {
   EXPECT_THAT(ran.out, HasSubstr("gate FAILED: iterations < 1.1"));
   EXPECT_EQ(compare("--gate 'failures <= 0'").code, 0);
   EXPECT_EQ(compare("").code, 0);
+}
+
+TEST_F(CompareVerbTest, OneSolverThatTakesTwiceAsManyDoesNotHideInAMean) {
+  auto records = baseline();
+  Record& one = records[7];
+  one.iterations = 3 * std::max<std::int64_t>(one.iterations, 1);
+  write_new(records);
+  EXPECT_EQ(compare("--gate 'iterations < 1.1'").code, 0);
+  EXPECT_EQ(compare("--gate 'worst(iterations) < 2'").code, 1);
 }
 
 TEST_F(CompareVerbTest, ANewFailureFailsTheGateAndIsNamed) {
@@ -107,6 +116,34 @@ TEST_F(CompareVerbTest, TheReportExportsForGoogleBenchmark) {
   EXPECT_EQ(ran.code, 0) << ran.err;
   const auto json = nlohmann::json::parse(content(folder_ / "new" / "gbench.json"));
   EXPECT_EQ(json["benchmarks"].size(), 54u);
+}
+
+// Where Debian's libbenchmark-tools and python3-scipy are.
+TEST_F(CompareVerbTest, GoogleBenchmarksOwnScriptReadsTheExport) {
+  const std::string script = "/usr/bin/python3 /usr/share/benchmark/compare.py ";
+  if (std::system((script + "--help > /dev/null 2>&1").c_str()) != 0) {
+    GTEST_SKIP() << "no compare.py of Google Benchmark that runs";
+  }
+  auto records = baseline();
+  for (Record& record : records) {
+    record.setup_s *= 2.0;
+    record.solve_s *= 2.0;
+  }
+  records[0].eta = 0.1;
+  records[0].status = results::Status::kKilledTime;
+  write_new(records);
+  EXPECT_EQ(conebench(std::string("report ") + kBase + " --format gbench -o base").code, 0);
+  EXPECT_EQ(conebench("report new --format gbench").code, 0);
+  const std::string command = "cd '" + folder_.string() + "' && " + script +
+                              "--no-color benchmarks base/gbench.json new/gbench.json > table.txt";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string table = content(folder_ / "table.txt");
+  EXPECT_THAT(table, HasSubstr(records[1].solver + "/" + records[1].problem.name));
+  std::size_t doubled = 0;
+  for (auto at = table.find(" +1.0000 "); at != table.npos; at = table.find(" +1.0000 ", at + 1)) {
+    ++doubled;
+  }
+  EXPECT_EQ(doubled, 53u) << table;  // and the failure is nobody's partner
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "harness/allocations.h"
 #include "harness/calibration.h"
 #include "harness/median.h"
+#include "problems/residual.h"
 
 namespace conebench::harness {
 namespace {
@@ -135,6 +136,34 @@ TEST(Allocations, NothingCountsOutsideAndWhilePaused) {
   count.resume();
   allocate();
   EXPECT_EQ(count.calls(), 2u);
+}
+
+// So many separate cones of each dimension, all pushed and dragged.
+problems::Problem separate_cones(int of_each) {
+  std::vector<problems::Cone> cones;
+  int rows = 0;
+  for (int k = 0; k < of_each; ++k) {
+    for (const int dim : {1, 2, 3, 6}) {
+      cones.push_back(problems::Cone::coulomb(dim, dim == 1 ? 0.0 : 0.5));
+      rows += dim;
+    }
+  }
+  problems::SparseMatrix W(rows, rows);
+  W.setIdentity();
+  return {problems::ReducedData{W, Eigen::VectorXd::Constant(rows, -1.0)}, cones, {}};
+}
+
+TEST(Allocations, AreNoneForEachConeThatIsJudged) {
+  SKIP_UNLESS_COUNTED();
+  const auto calls = [](int of_each) {
+    const problems::Problem problem = separate_cones(of_each);
+    const Eigen::VectorXd r = Eigen::VectorXd::Constant(problem.rows(), 0.25);
+    AllocationCount count;
+    EXPECT_GT(problems::evaluate_residual(problem, r).eta.max, 0.0);
+    EXPECT_GT(problems::evaluate_eta(problem, r), 0.0);
+    return count.calls();
+  };
+  EXPECT_EQ(calls(100), calls(1));
 }
 
 Calibration steady() {

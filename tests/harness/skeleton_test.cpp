@@ -167,10 +167,11 @@ TEST_F(SkeletonTest, AProgramThatBreaksDownIsNotPassedAndSaysWhy) {
 
 TEST_F(SkeletonTest, TheInstalledHeaderIsEnough) {
   const std::string build = fs::path(CONEBENCH_PROGRAM).parent_path().string();
-  const Ran ran = shell("cmake --install '" + build + "' --prefix installed && set -e\n" +
-                        "installed/bin/conebench solver new mine --language c\n" +
-                        "make -C mine CONEBENCH=../installed/include/conebench\n" +
-                        "installed/bin/conebench solver check plugin:mine/mine.so");
+  const Ran ran =
+      shell("cmake --install '" + build + "' --component program --prefix installed && set -e\n" +
+            "installed/bin/conebench solver new mine --language c\n" +
+            "make -C mine CONEBENCH=../installed/include/conebench\n" +
+            "installed/bin/conebench solver check plugin:mine/mine.so");
   EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
 }
 

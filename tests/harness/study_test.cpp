@@ -96,6 +96,8 @@ TEST_F(StudyTest, ErrorsNameTheKey) {
   EXPECT_THAT(error_of(head + "tol = 1e-4\n"), HasSubstr("tol: "));
   EXPECT_THAT(error_of(head + "tol = []\n"), HasSubstr("empty"));
   EXPECT_THAT(error_of(head + "tol = [-1.0]\n"), HasSubstr("tol"));
+  EXPECT_THAT(error_of(head + "tol = [1e-4, 1e-6, 1e-4]\n"), HasSubstr("stands twice"));
+  EXPECT_THAT(error_of(head + "threads = [2, 2]\n"), HasSubstr("threads: 2 stands twice"));
   EXPECT_THAT(error_of(head + "mode = [\"hot\"]\n"), HasSubstr("known: cold, warm, sequence"));
   EXPECT_THAT(error_of(head + "threads = [0]\n"), HasSubstr("threads"));
   EXPECT_THAT(error_of(head + "time_limit = \"5 parsecs\"\n"), HasSubstr("time_limit"));

@@ -216,6 +216,27 @@ TEST(Timing, TheCurveIsThatOfTheFirstSolve) {
   EXPECT_NEAR(timed.curve.back().eta, 1.0, 1e-12);
 }
 
+// A ranking takes its times from the curve: those of a slow first solve would count after all.
+TEST(Timing, TheCurvesTimesAreInProportionToTheMedians) {
+  int solves = 0;
+  solvers::Solver solver = honest_solver();
+  solver.solve = [&](const problems::Problem& standard, const Request& request) {
+    Result result;
+    result.r = Eigen::VectorXd::Zero(standard.rows());
+    result.solve_s = solves++ == 0 ? 4.0 : 1.0;
+    for (const int half : {1, 2}) {
+      request.monitor->set_clock(0.0, 0.5 * half * result.solve_s);
+      request.monitor->check(half, result.r);
+    }
+    return result;
+  };
+  const TimedSolves timed = time_one_contact(solver, {.by_confidence = true});
+  EXPECT_EQ(timed.solve_s, 1.0);
+  ASSERT_EQ(timed.curve.size(), 2u);
+  EXPECT_NEAR(timed.curve[0].time_s, 0.5, 0.01);
+  EXPECT_NEAR(timed.curve[1].time_s, 1.0, 0.01);
+}
+
 TEST(Timing, TheGuessAndTheRuleReachTheSolver) {
   const Eigen::VectorXd guess = Eigen::Vector3d(3.0, 2.0, 1.0);
   solvers::Solver solver = honest_solver();

@@ -11,6 +11,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { after, test } from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { performanceProfiles } from '../../results/report/web/profile.js';
 import { CHROMIUM, hasChromium, launch, open } from './browser.mjs';
 
 const [makePage, libraries] = process.argv.slice(2);
@@ -123,6 +124,56 @@ test('a click in a legend hides a solver in all plots', () =>
     assert.equal(await entry(second).getAttribute('aria-pressed'), 'false');
     await entry(second).click();
     assert.equal(await entry(first).getAttribute('aria-pressed'), 'true');
+  }));
+
+// Of three problems: a is the fastest on two and fails on one, b solves all, c was not run on one.
+const TIMES = [[1, 2, null], [2, 8, 3], [4, false, 6]];
+
+test('a performance profile is that of the solvers shown', () => {
+  const three = performanceProfiles(TIMES, [true, true, true]);
+  assert.deepEqual(three.map(({ x, y }) => [x, y]), [[[1], [0.5]], [[1, 2], [0.5, 1]], [[2, 4], [0.5, 1]]]);
+  assert.deepEqual(three.map(({ solved, problems }) => `${solved}/${problems}`), ['1/2', '2/2', '2/2']);
+  const [a, b, c] = performanceProfiles(TIMES, [true, true, false]);
+  assert.deepEqual([a.x, a.y], [[1], [2 / 3]]);
+  assert.deepEqual([b.x, b.y], [[1, 2, 4], [1 / 3, 2 / 3, 1]]);
+  assert.deepEqual(c, { x: [], y: [], solved: 0, problems: 3 });
+  assert.deepEqual(performanceProfiles(TIMES, [false, true, false])[1], { x: [1], y: [1], solved: 3, problems: 3 });
+  assert.deepEqual(performanceProfiles([[1e-9], [2e-9]], [true, true]).map(({ x }) => x), [[1], [1]]);
+});
+
+// The rows of a plot's CSV as {solver: [[x, y], ...]}.
+async function curvesOf(page, figure) {
+  const curves = {};
+  for (const line of (await download(page, figure.locator('button', { hasText: 'CSV' }))).trim().split('\r\n').slice(1)) {
+    const [name, x, y] = line.split(',');
+    (curves[name] ??= []).push([Number(x), Number(y)]);
+  }
+  return curves;
+}
+
+test('hiding a solver makes the performance profile anew for the others', () =>
+  on(page20, {}, async (page) => {
+    const figure = await drawn(page, 'g0-plot-profile');
+    const canvas = () => figure.locator('canvas').evaluate((node) => node.toDataURL());
+    const entry = (name) => figure.locator('.legend button', { hasText: name });
+    const wins = (curve) => curve.filter(([x]) => x === 1).at(-1)?.[1] ?? 0;
+    const [before, pictureBefore] = [await curvesOf(page, figure), await canvas()];
+    const [best] = Object.entries(before).sort((a, b) => wins(b[1]) - wins(a[1]))[0];
+    assert.ok(wins(before[best]) > 0);
+    await entry(best).click();
+    const after = await curvesOf(page, figure);
+    assert.equal(after[best], undefined);
+    const others = Object.keys(before).filter((name) => name !== best);
+    const gained = others.filter((name) => wins(after[name]) > wins(before[name]));
+    assert.ok(gained.length > 0, 'who was second to the hidden one is the fastest now');
+    for (const name of others) {
+      assert.ok(wins(after[name]) >= wins(before[name]), name);
+      assert.ok(Math.abs(after[name].at(-1)[1] - before[name].at(-1)[1]) < 1e-3, 'what it solves it still solves');
+    }
+    assert.notEqual(await canvas(), pictureBefore);
+    assert.match(await download(page, figure.locator('button', { hasText: 'SVG' })), /problems solved \[% of all\]/);
+    await entry(best).click();
+    assert.deepEqual(await curvesOf(page, figure), before);
   }));
 
 test('a choice changes what is drawn', () =>
@@ -305,6 +356,7 @@ test('200 problems and 20 solvers are less than 3 MB', () => {
 
 test('of 5000 problems the table holds only the rows in sight', () =>
   on(make('huge.html', '5000', '20'), {}, async (page) => {
+    await page.waitForFunction(() => performance.getEntriesByName('first-contentful-paint').length > 0);
     const times = await page.evaluate(() => ({
       paint: performance.getEntriesByName('first-contentful-paint')[0].startTime,
       ready: performance.now(),

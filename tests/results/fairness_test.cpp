@@ -167,6 +167,68 @@ TEST(Fairness, TwoBuildsOfASolverAreNoRepetitionsOfOne) {
   EXPECT_THAT(table.rows[0].time_s, testing::ElementsAre(1.0, 4.0, 2.0));
 }
 
+// A shard that was requeued on a slower kind of machine after two of its three tasks.
+TEST(Fairness, TimesOfTwoKindsOfMachinesAreNeverMixed) {
+  std::vector<Record> records = {make_record("p1", "a", 1e-9, 1), make_record("p1", "b", 1e-9, 2),
+                                 make_record("p1", "a", 1e-9, 3), make_record("p1", "b", 1e-9, 4),
+                                 make_record("p1", "c", 1e-9, 5)};
+  for (std::size_t i = 2; i < 5; ++i) {
+    records[i].host.cpu = "a slow one";
+    records[i].solver_build = "for the slow one";
+  }
+  const auto groups = group_by_settings(records);
+  ASSERT_EQ(groups.size(), 1u);
+  const TimeTable table = make_time_table(groups[0].methods, 1e-8);
+  EXPECT_THAT(table.solvers, testing::ElementsAre("a", "b", "c"));
+  EXPECT_THAT(table.rows[0].time_s, testing::ElementsAre(3.0, 4.0, 5.0));
+  EXPECT_THAT(markdown_report({.records = records}),
+              testing::HasSubstr("2 rows are in no ranking"));
+}
+
+TEST(Fairness, OfTwoMachinesThatDidAsMuchTheLaterCountsWhateverTheOrder) {
+  std::vector<Record> records = {make_record("p1", "a", 1e-9, 1), make_record("p1", "a", 1e-9, 9),
+                                 make_record("p2", "a", 1e-9, 5)};
+  records[1].host.cores = 64;
+  records[1].started_at = "2024-05-02T12:00:00Z";
+  for (int turn = 0; turn < 2; ++turn, std::swap(records[0], records[1])) {
+    const TimeTable table = make_time_table(group_by_settings(records)[0].methods, 1e-8);
+    ASSERT_EQ(table.rows.size(), 2u);
+    EXPECT_EQ(table.rows[0].time_s[0], 9.0);
+    EXPECT_EQ(table.rows[1].time_s[0], 5.0);  // another problem may have run elsewhere
+  }
+}
+
+// Without a curve only the time of the whole run is known, which is no time to a looser tolerance.
+TEST(Fairness, ASolverThatStopsByItsOwnTestIsRankedAtItsOwnToleranceOnly) {
+  std::vector<Record> records = {make_record("p1", "a", 1e-9, 1), make_record("p1", "b", 1e-9, 2)};
+  EXPECT_EQ(group_by_settings(records)[0].tolerances().size(), 3u);
+  for (Record& record : records) record.settings.stop = "own";
+  EXPECT_THAT(group_by_settings(records)[0].tolerances(), testing::ElementsAre(1e-8));
+  EXPECT_THAT(csv_report(records), testing::HasSubstr(",,,1,"));  // time_to_1e-4_s, time_to_1e-6_s
+}
+
+TEST(Fairness, AnUpperBoundIsCalledOne) {
+  std::vector<Record> records = {make_record("p1", "a", 1e-9, 1),
+                                 make_record("p1", "exec:b", 1e-9, 2)};
+  records[0].curve = {{0.5, 1, 1e-5}, {1.0, 2, 1e-9}};
+  EXPECT_THAT(ranking_remark(records, 1e-4), testing::HasSubstr("Of `exec:b` only the time to"));
+  EXPECT_THAT(ranking_remark(records, 1e-4), testing::Not(testing::HasSubstr("`a`")));
+  EXPECT_EQ(ranking_remark(records, 1e-8), "");
+}
+
+TEST(Fairness, WhoSolvesNothingHasNoPlace) {
+  const std::vector<Record> records = {make_record("p1", "a", 1e-9, 1),
+                                       make_record("p1", "liar", 0.3, 1e-6)};
+  EXPECT_EQ(ranking_remark(records, 1e-8), "Solved nothing, so without a place: `liar`. ");
+}
+
+TEST(Report, NamesWhatSpeaksAgainstTheTimes) {
+  const auto records = random_records(1);
+  const std::string text =
+      markdown_report({.records = records, .machine_marks = {"campaign: time of arithmetic"}});
+  EXPECT_THAT(text, testing::HasSubstr("**times in doubt:** campaign: time of arithmetic"));
+}
+
 TEST(Report, SaysHowFarToTrustTheRanking) {
   const auto records = random_records(1);
   const std::string text = markdown_report({.records = records});

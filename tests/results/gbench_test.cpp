@@ -46,15 +46,16 @@ TEST(GoogleBenchmark, ARunHasTheMembersOfTheFormat) {
   EXPECT_EQ(run["eta"], 1e-9);
 }
 
-// compare.py groups runs by name and reads real_time, cpu_time and time_unit of each.
+// compare.py groups the benchmarks by name and reads real_time, cpu_time and time_unit of each.
 TEST(GoogleBenchmark, AFailureHasNoTimeAndSharesNoNameWithATime) {
   const json report = json::parse(gbench_report(three_runs()));
-  ASSERT_EQ(report["benchmarks"].size(), 3u);
+  ASSERT_EQ(report["benchmarks"].size(), 2u);
+  ASSERT_EQ(report["failures"].size(), 1u);
   std::set<std::string> timed;
   for (const json& run : report["benchmarks"]) {
     if (run.contains("real_time")) timed.insert(run["name"]);
   }
-  const json& failed = report["benchmarks"][2];
+  const json& failed = report["failures"][0];
   EXPECT_EQ(failed["error_occurred"], true);
   EXPECT_EQ(failed["error_message"], "killed_time");
   EXPECT_EQ(failed["name"], "gs[omega=0.8]/p1@sha-of-p/tol:1e-08/failed:killed_time");
@@ -65,19 +66,21 @@ TEST(GoogleBenchmark, AFailureHasNoTimeAndSharesNoNameWithATime) {
 TEST(GoogleBenchmark, ALateAnswerIsAFailure) {
   Record late = make_record("p1", "gs", 1e-9, 11.0);  // the limit is 10 s
   const json report = json::parse(gbench_report(std::vector{late}));
-  EXPECT_EQ(report["benchmarks"][0]["error_message"], "after the time limit");
+  EXPECT_TRUE(report["benchmarks"].empty());
+  EXPECT_EQ(report["failures"][0]["error_message"], "after the time limit");
 }
 
 TEST(GoogleBenchmark, DifferentRulesAreDifferentBenchmarks) {
-  std::vector<Record> records(5, make_record("p1", "gs", 1e-9, 0.1));
+  std::vector<Record> records(6, make_record("p1", "gs", 1e-9, 0.1));
   records[1].settings.tol = 1e-4;
   records[2].settings.mode = "warm";
   records[3].settings.threads = 2;
   records[4].settings.stop = "own";
+  records[5].settings.timing = "repeated";
   std::set<std::string> names;
   const json report = json::parse(gbench_report(records));
   for (const json& run : report["benchmarks"]) names.insert(run["name"]);
-  EXPECT_EQ(names.size(), 5u);
+  EXPECT_EQ(names.size(), 6u);
 }
 
 TEST(GoogleBenchmark, FamiliesAreSolvers) {

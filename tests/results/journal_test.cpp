@@ -150,7 +150,11 @@ TEST(TaskKey, DependsOnTheTaskAndNotOnItsResult) {
   for (auto change :
        {+[](Record& r) { r.settings.tol = 1e-6; }, +[](Record& r) { r.settings.time_limit_s = 1; },
         +[](Record& r) { r.settings.memory_limit_bytes = 1; },
-        +[](Record& r) { r.settings.stop = "own"; }, +[](Record& r) { r.repetition = 1; }}) {
+        +[](Record& r) { r.settings.stop = "own"; }, +[](Record& r) { r.repetition = 1; },
+        +[](Record& r) { r.solver_build = "another"; },
+        +[](Record& r) { r.settings.mode = "warm"; }, +[](Record& r) { r.settings.threads = 2; },
+        +[](Record& r) { r.settings.timing = "repeated"; }, +[](Record& r) { r.donor = "b"; },
+        +[](Record& r) { r.host.cpu = "another"; }, +[](Record& r) { r.host.cores = 99; }}) {
     Record changed = base;
     change(changed);
     EXPECT_NE(task_key(base), task_key(changed));

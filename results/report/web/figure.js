@@ -5,6 +5,7 @@ import { element, save, swatch } from './dom.js';
 import { curvesImage, saveImage } from './image.js';
 import { csvLine, formatValue } from './format.js';
 import { onTheme } from './palette.js';
+import { comparedAnew } from './profile.js';
 
 const MOST_LINES = 12; // of the box
 const KEY_STEP = 0.01; // of the axis
@@ -56,12 +57,16 @@ export class Figure {
     this.drawing = null;
     this.#build();
     onTheme(() => this.drawing?.redraw());
-    shown.listen(() => this.#update());
+    shown.listen(() => (this.dependsOnOthers ? this.#compareAnew() : this.#update()));
     new ResizeObserver(() => this.#fit()).observe(this.host);
   }
 
   get variant() {
-    return this.plot.variants[this.choice];
+    return this.anew ?? this.plot.variants[this.choice];
+  }
+  // Of a performance profile: it depends on who is compared.
+  get dependsOnOthers() {
+    return this.plot.variants[this.choice].series.some((series) => series.times !== undefined);
   }
   get rowsAreLegend() {
     return this.plot.mark === 'dots' && this.variant.series.length === this.variant.y.ticks.length;
@@ -101,10 +106,15 @@ export class Figure {
     const name = `conebench-${this.node.id}`;
     bar.append(
       element('div', { class: 'downloads' },
-        element('button', { type: 'button', class: 'quiet', 'aria-label': 'Download this plot as SVG', onclick: () => saveImage(this.svgs[this.choice] ?? curvesImage(this.variant), name) }, 'SVG'),
+        element('button', { type: 'button', class: 'quiet', 'aria-label': 'Download this plot as SVG', onclick: () => saveImage(this.#image(), name) }, 'SVG'),
         element('button', { type: 'button', class: 'quiet', 'aria-label': 'Download these numbers as CSV', onclick: () => save(`${name}.csv`, 'text/csv', csvOf(this.variant, this.plot.mark)) }, 'CSV')),
     );
     return bar;
+  }
+
+  #image() {
+    const made = this.anew ? null : this.svgs[this.choice];
+    return made ?? curvesImage(this.variant, this.plot.mark);
   }
 
   #describe() {
@@ -112,8 +122,28 @@ export class Figure {
       `${this.variant.title}. Across: ${this.variant.x.label}; up: ${this.variant.y.label}. Arrow keys read values.`);
   }
 
+  // With all of them shown it is what stands in the data.
+  #takeShown() {
+    const all = this.plot.variants[this.choice];
+    const has = (name) => this.shown.has(name);
+    const compared = !this.dependsOnOthers || all.series.every((series) => has(series.name));
+    this.anew = compared ? null : comparedAnew(all, has);
+  }
+
+  // The buttons stay, so that a double click is one.
+  #compareAnew() {
+    this.#takeShown();
+    this.variant.series.forEach((series, i) => {
+      const note = this.entries?.[i].querySelector('small');
+      if (note) note.textContent = series.note;
+    });
+    if (this.drawing) this.draw();
+    this.#update();
+  }
+
   #choose(index) {
     this.choice = index;
+    this.#takeShown();
     this.tabs.forEach((tab, i) => tab.setAttribute('aria-pressed', String(i === index)));
     this.#describe();
     this.#drawLegend();

@@ -21,15 +21,23 @@ export function saveImage(svg, name) {
 
 const [LEFT, TOP, WIDTH, HEIGHT] = [74, 48, 480, 320];
 
-/** Lines over two logarithmic axes, as results/svg_plot.cpp draws them. */
-export function curvesImage({ title, x: xAxis, y: yAxis, series }) {
-  const share = (axis, value) => Math.log10(value / axis.low) / Math.log10(axis.high / axis.low);
+/** Curves as results/svg_plot.cpp draws them, without those that have no points. */
+export function curvesImage({ title, x: xAxis, y: yAxis, series: all }, mark) {
+  const series = all.filter((one) => one.x.length > 0);
+  const share = (axis, value) =>
+    axis.scale === 'linear'
+      ? (value - axis.low) / (axis.high - axis.low)
+      : Math.log10(value / axis.low) / Math.log10(axis.high / axis.low);
   const x = (value) => LEFT + WIDTH * share(xAxis, value);
   const y = (value) => TOP + HEIGHT * (1 - share(yAxis, value));
   const line = (x1, y1, x2, y2, name) => svgElement('line', { x1, y1, x2, y2, class: name });
   const text = (at, up, anchor, words) => svgElement('text', { x: at, y: up, 'text-anchor': anchor }, words);
   const right = LEFT + WIDTH;
   const bottom = TOP + HEIGHT;
+  const path = (one) =>
+    mark === 'steps'
+      ? `M${LEFT} ${y(yAxis.low).toFixed(1)}${one.x.map((value, k) => `H${x(value).toFixed(1)}V${y(one.y[k]).toFixed(1)}`).join('')}H${right}`
+      : one.x.map((value, k) => `${k === 0 ? 'M' : 'L'}${x(value).toFixed(1)} ${y(one.y[k]).toFixed(1)}`).join('');
   const name = (one) => `c s${one.colour} d${one.dash}`;
   const total = Math.max(bottom + 58, TOP + 22 * (series.length + 1));
   return svgElement('svg', { viewBox: `0 0 ${right + 290} ${total}`, 'font-family': 'sans-serif', 'font-size': 13 },
@@ -42,7 +50,7 @@ export function curvesImage({ title, x: xAxis, y: yAxis, series }) {
     text(LEFT + WIDTH / 2, bottom + 40, 'middle', xAxis.label),
     svgElement('text', { transform: `translate(16 ${TOP + HEIGHT / 2}) rotate(-90)`, 'text-anchor': 'middle' }, yAxis.label),
     ...series.flatMap((one, i) => [
-      svgElement('path', { d: one.x.map((value, k) => `${k === 0 ? 'M' : 'L'}${x(value).toFixed(1)} ${y(one.y[k]).toFixed(1)}`).join(''), class: name(one) }),
+      svgElement('path', { d: path(one), class: name(one) }),
       line(right + 24, TOP + 8 + 22 * i, right + 54, TOP + 8 + 22 * i, name(one)),
       text(right + 62, TOP + 12 + 22 * i, 'start', one.name),
     ]));

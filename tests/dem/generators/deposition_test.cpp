@@ -71,6 +71,8 @@ TEST(Deposition, InThePlaneThereIsOneRowTurnedAboutY) {
 }
 
 TEST(Deposition, WhatCannotBeIsRefused) {
+  EXPECT_THAT(error_of(deposition("radius_range_m = [1e-6, 1e-6]\n")),
+              HasSubstr("depositions: asks for "));
   EXPECT_THAT(error_of(deposition("radius_range_m = [0.02, 0.02]\ncount = 176\n")),
               HasSubstr("depositions: count: 176 cells of side 0.04 m do not fit into "
                         "low_m..high_m, there is room for 175"));

@@ -77,6 +77,10 @@ TEST(Lattice, TurnedShapesKeepToTheirCells) {
 }
 
 TEST(Lattice, WhatCannotBeIsRefused) {
+  EXPECT_THAT(error_of(lattice("radius_m = 0.01\ncounts = [4294967297, 1, 1]\n")),
+              HasSubstr("lattices[0].counts: found 4294967297, expected at most 1e+08"));
+  EXPECT_THAT(error_of(lattice("radius_m = 0.01\ncounts = [1000, 1000, 1000]\n")),
+              HasSubstr("lattices: counts: asks for 1e+09 bodies"));
   EXPECT_THAT(error_of(lattice("radius_m = 0.01\ncounts = [3, 0, 3]\n")),
               AllOf(HasSubstr("lattices[0].counts"), HasSubstr("found 0")));
   EXPECT_THAT(error_of(lattice("shape = \"bx\"\ncounts = [1, 1, 1]\n")),
