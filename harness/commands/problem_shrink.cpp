@@ -116,15 +116,19 @@ void add_problem_shrink(CLI::App& problem, int& exit_code) {
   options->settings.time_limit = "10s";
   CLI::App* verb = problem.add_subcommand(
       "shrink", "the fewest cones of a problem on which a solver still fails in the same way");
-  verb->add_option("FILE", options->file, "Problem in any format that we can import")->required();
+  verb->add_option("FILE", options->file, "Problem in any format that we can import")
+      ->type_name("")
+      ->required();
   verb->add_option("-s,--solver", options->solver,
                    "Variant that fails, e.g. newton-ac or plugin:FILE")
+      ->type_name("SOLVER")
       ->capture_default_str();
   verb->add_option(
-      "--failing", options->failing,
-      "What failing is: a status such as stalled or crashed, or a condition on status, "
-      "claimed, solved, eta, iterations, time, e.g. 'eta > 1e-3' (default: the status "
-      "that the whole problem ends with)");
+          "--failing", options->failing,
+          "What failing is: a status such as stalled or crashed, or a condition on status, "
+          "claimed, solved, eta, iterations, time, e.g. 'eta > 1e-3' (default: the status "
+          "that the whole problem ends with)")
+      ->type_name("STATUS|CONDITION");
   verb->add_option("--mode", options->mode,
                    "Start of every run: cold, or warm from the file's guess")
       ->check(CLI::IsMember({"cold", "warm"}))
@@ -136,6 +140,7 @@ void add_problem_shrink(CLI::App& problem, int& exit_code) {
       ->capture_default_str();
   verb->add_option("-o,--output", options->output,
                    "Problem file to write; while the search runs, the smallest so far")
+      ->type_name("FILE")
       ->required();
   verb->add_flag("--json", options->json, "Print one JSON object");
   verb->footer(

@@ -113,7 +113,7 @@ TEST_F(AdviseVerb, WritesAPolicyThatBothEnginesTake) {
   EXPECT_GT(advice["probability"], 0.5);
   EXPECT_GE(advice["validation_steps"], 4);
   for (const std::string scene : {"stack --steps 200",
-                                  "sand-column --steps 6 --set "
+                                  "sand-column --steps 30 --set "
                                   "grid.cells=[16,4] --set grid.size_m=[4,1]"}) {
     const Ran run = conebench("simulate " + scene + " -s policy:policy.toml --json");
     ASSERT_EQ(run.code, 0) << run.err;
