@@ -16,6 +16,8 @@ struct AdviceSamples {
   std::vector<Sample> training, validation;
   std::string source;       ///< one sentence: where both come from
   bool by_islands = false;  ///< as the engine solves them
+  /// Cone problems that the engine solves in a step, on average; the samples are one of each step.
+  double solves_per_step = 1.0;
   double fallback_limit_s = 10.0;
 };
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "harness/step_solver.h"
 #include "harness/variants.h"
@@ -63,16 +64,6 @@ bool better(const Entrant& a, const Entrant& b, const Wish& wish) {
   return total_s(a, kPatience * wish.budget_s) < total_s(b, kPatience * wish.budget_s);
 }
 
-bool all_but_lost(const Entrant& entrant, const Entrant& leader, const Wish& wish) {
-  const auto trials = static_cast<std::int64_t>(entrant.times_s.size());
-  const std::int64_t mine = entrant.within(wish.budget_s), best = leader.within(wish.budget_s);
-  // Misses are successes of the complement: an upper bound of p from a lower one of 1 - p.
-  const double most = 1.0 - results::binomial_lower_bound(trials - mine, trials, kRaceConfidence);
-  if (most < results::binomial_lower_bound(best, trials, kRaceConfidence)) return true;
-  const double limit = kPatience * wish.budget_s;
-  return mine <= best && total_s(entrant, limit) > kFarBehind * total_s(leader, limit);
-}
-
 void drop_losers(std::vector<Entrant>& entrants, const Wish& wish) {
   const Entrant* leader = nullptr;
   for (const Entrant& entrant : entrants) {
@@ -83,12 +74,18 @@ void drop_losers(std::vector<Entrant>& entrants, const Wish& wish) {
   if (leader == nullptr || leader->times_s.size() < kLeastRaced) return;
   for (Entrant& entrant : entrants) {
     if (&entrant == leader || entrant.dropped) continue;
-    entrant.dropped = all_but_lost(entrant, *leader, wish);
+    entrant.dropped = out_of_the_race(entrant, *leader, wish);
   }
 }
 
+std::vector<std::size_t> in_order(std::size_t count) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  return order;
+}
+
 // All solvers on one step before the next; `after_step` may drop some.
-std::vector<Entrant> run(const std::vector<Sample>& samples,
+std::vector<Entrant> run(const std::vector<Sample>& samples, const std::vector<std::size_t>& order,
                          const std::vector<std::string>& solvers, const Wish& wish, bool by_islands,
                          const std::function<void(std::vector<Entrant>&)>& after_step) {
   std::vector<Entrant> entrants;
@@ -97,7 +94,8 @@ std::vector<Entrant> run(const std::vector<Sample>& samples,
     entrants.push_back({.solver = solver});
     runners.emplace_back(solver, wish, by_islands);
   }
-  for (const Sample& sample : samples) {
+  for (const std::size_t step : order) {
+    const Sample& sample = samples[step];
     for (std::size_t k = 0; k < entrants.size(); ++k) {
       Entrant& entrant = entrants[k];
       if (entrant.dropped) continue;
@@ -173,10 +171,30 @@ double Entrant::quantile_s(double share) const {
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
+std::vector<std::size_t> spread_order(std::size_t count) {
+  constexpr double kGolden = 0.6180339887498949;
+  std::vector<std::size_t> order = in_order(count);
+  const auto place = [](std::size_t k) {
+    const double turns = kGolden * static_cast<double>(k);
+    return turns - std::floor(turns);
+  };
+  std::ranges::stable_sort(order, {}, place);
+  return order;
+}
+
+bool out_of_the_race(const Entrant& entrant, const Entrant& leader, const Wish& wish) {
+  const auto trials = static_cast<std::int64_t>(entrant.times_s.size());
+  const std::int64_t mine = entrant.within(wish.budget_s), best = leader.within(wish.budget_s);
+  // Misses are successes of the complement: an upper bound of p from a lower one of 1 - p.
+  const double most = 1.0 - results::binomial_lower_bound(trials - mine, trials, kRaceConfidence);
+  if (most < results::binomial_lower_bound(best, trials, kRaceConfidence)) return true;
+  return mine <= best && entrant.quantile_s(0.5) > kFarBehind * leader.quantile_s(0.5);
+}
+
 std::vector<Entrant> race(const std::vector<Sample>& samples,
                           const std::vector<std::string>& solvers, const Wish& wish,
                           bool by_islands) {
-  return run(samples, solvers, wish, by_islands,
+  return run(samples, spread_order(samples.size()), solvers, wish, by_islands,
              [&](std::vector<Entrant>& entrants) { drop_losers(entrants, wish); });
 }
 
@@ -186,7 +204,8 @@ Advice advise(const std::vector<Sample>& training, const std::vector<Sample>& va
   Advice advice;
   advice.chosen_among = race(training, solvers, wish, by_islands);
   const std::vector<std::string> names = finalists(advice.chosen_among, wish);
-  advice.validation = run(validation, names, wish, by_islands, [](std::vector<Entrant>&) {});
+  advice.validation = run(validation, in_order(validation.size()), names, wish, by_islands,
+                          [](std::vector<Entrant>&) {});
   advice.nearest_budget_s = kInfinity;
   compare(wish, validation.size(), advice);
 

@@ -13,7 +13,7 @@ namespace conebench::harness {
 /// What is asked of a solver at every step.
 struct Wish {
   double tol = 1e-5;      ///< on eta
-  double budget_s = 0.0;  ///< wall clock of one step
+  double budget_s = 0.0;  ///< wall clock of one solve
   double confidence = 0.95;
 };
 
@@ -26,7 +26,7 @@ struct Sample {
 /// Where a step was not solved, its time is infinite.
 struct Entrant {
   std::string solver;
-  std::vector<double> times_s{};  ///< of the steps it ran on, in their order
+  std::vector<double> times_s{};  ///< of the steps it ran on, in the order that it met them
   bool dropped = false;           ///< left the race before its end
 
   std::int64_t solved() const;
@@ -39,13 +39,21 @@ struct Entrant {
 /// engine would (islands too where `by_islands`). A step counts as solved when eta of the answer,
 /// computed anew, is <= tol; nobody gets more than kPatience budgets.
 ///
-/// A solver leaves the race when it is all but sure to lose it: its share of steps within the
-/// budget is below the leader's with a confidence of 95 % on both sides, or, having no more steps
-/// within the budget than the leader, it has taken kFarBehind times the leader's time. A step
+/// The steps are taken in spread_order(): those of a run's beginning are often the easy ones. A
+/// solver leaves the race when it is out_of_the_race(), at the earliest after four steps. A step
 /// that a solver cannot take counts as not solved.
 std::vector<Entrant> race(const std::vector<Sample>& samples,
                           const std::vector<std::string>& solvers, const Wish& wish,
                           bool by_islands);
+
+/// 0 to count - 1, every stretch of them from all parts of the whole.
+std::vector<std::size_t> spread_order(std::size_t count);
+
+/// All but sure to lose: its share of steps within the budget is below the leader's with a
+/// confidence of 95 % on both sides, or, with no more steps within the budget than the leader, its
+/// median time is above kFarBehind times the leader's. (Not its mean: one hard step among easy ones
+/// is no reason.)
+bool out_of_the_race(const Entrant& entrant, const Entrant& leader, const Wish& wish);
 
 inline constexpr double kPatience = 20.0;
 inline constexpr double kFarBehind = 4.0;

@@ -34,7 +34,8 @@ Policy::Rung read_rung(engine::TomlReader in, const std::string& subject) {
 
 std::string to_toml(const Policy& policy) {
   std::string out = fmt::format(
-      "# Made by `conebench advise`. With a confidence of {:g}, a step of the scene is solved to\n"
+      "# Made by `conebench advise`. With a confidence of {:g}, a problem of the scene is solved "
+      "to\n"
       "# eta <= {:g} within {:g} s by the first rung with a probability of at least {:.3f}.\n"
       "schema = {}\nscene = {}\ntol = {:g}\nbudget_s = {:g}\nconfidence = {:g}\n"
       "probability = {:.6g}\n",

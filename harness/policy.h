@@ -13,12 +13,12 @@ namespace conebench::harness {
 struct Policy {
   struct Rung {
     std::string solver;         ///< a variant
-    double time_limit_s = 0.0;  ///< of one step, > 0
+    double time_limit_s = 0.0;  ///< of one solve, > 0
   };
 
   std::string scene;         ///< that it was made for
   double tol = 0.0;          ///< on eta
-  double budget_s = 0.0;     ///< of one step
+  double budget_s = 0.0;     ///< of one solve
   double confidence = 0.0;   ///< of the bound below
   double probability = 0.0;  ///< lower bound of P(first rung: time <= budget and eta <= tol)
   std::vector<Rung> ladder;  ///< tried in this order, at least one

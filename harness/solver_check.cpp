@@ -29,7 +29,9 @@ std::vector<CheckResult> check_solver(const solvers::Solver& solver,
                                   .solver = solver,
                                   .stop = {.tol = kTolerance, .time_limit_s = kTimeLimit_s}});
     if (!record) break;
-    const bool passed = record->solved() || record->status == results::Status::kUnsupported;
+    // r = 0, a solution here and there, is no merit of a solver that has broken down.
+    const bool solved = record->solved() && record->status != results::Status::kDiverged;
+    const bool passed = solved || record->status == results::Status::kUnsupported;
     results.push_back({.record = *record, .passed = passed});
   }
   return results;

@@ -10,7 +10,8 @@ namespace conebench::harness {
 
 struct CheckResult {
   results::Record record;
-  bool passed = false;  ///< solved to the verified tolerance, or openly unsupported
+  /// Solved to the verified tolerance without breaking down, or openly unsupported.
+  bool passed = false;
 };
 
 /// Runs a solver, each time in a worker process, on small problems made backwards from their

@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -211,6 +212,16 @@ std::vector<Record> decoded(const json& message) {
   return records;
 }
 
+// What a solver that failed has last said on stderr, in one line.
+std::string last_words(std::string errors) {
+  constexpr std::size_t kKept = 300;
+  while (!errors.empty() && std::isspace(static_cast<unsigned char>(errors.back()))) {
+    errors.pop_back();
+  }
+  if (errors.size() > kKept) errors.erase(0, errors.size() - kKept);
+  return "stderr: " + errors.substr(errors.rfind('\n') + 1);
+}
+
 // "mpm/sand-column, steps 3 to 12", and what identifies it.
 results::SequencePlace sequence_of(const Task& task) {
   if (task.mode != Mode::kSequence) return {};
@@ -282,6 +293,9 @@ std::vector<Record> records_of(const Task& task, const ChildOutcome& outcome) {
     record.wall_s = outcome.wall_s;
     record.cpu_s = outcome.cpu_s;
     record.peak_memory_bytes = std::max(record.peak_memory_bytes, outcome.peak_memory_bytes);
+    const bool well = record.solved() && record.status != Status::kDiverged;
+    if (well || !record.error.empty() || outcome.errors.empty()) continue;
+    record.error = last_words(outcome.errors);
   }
   return records;
 }

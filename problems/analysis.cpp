@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "problems/part.h"
 #include "problems/problem.h"
 #include "problems/union_find.h"
 
@@ -41,16 +42,6 @@ std::vector<int> island_sizes(const Problem& problem) {
   }
   std::erase(sizes, 0);  // dofs without a cone
   return sizes;
-}
-
-std::vector<int> rows_of(const Problem& problem, const std::vector<int>& cones) {
-  std::vector<int> rows;
-  for (const int i : cones) {
-    for (int k = 0; k < problem.cones()[static_cast<std::size_t>(i)].dim; ++k) {
-      rows.push_back(problem.start(i) + k);
-    }
-  }
-  return rows;
 }
 
 template <class Get>

@@ -185,6 +185,9 @@ Method make_aclm_method(std::string name, std::string summary, std::vector<Param
   Method method{.name = std::move(name),
                 .kind = Kind::kMethod,
                 .summary = std::move(summary),
+                .source =
+                    "Acary, Cadoux, Lemarechal, Malick, ZAMM 91(2) (2011) 155-175 (not checked); "
+                    "Anderson acceleration of t: ours",
                 .parameters = std::move(parameters),
                 .make = {}};
   method.make = [method, make_inner = std::move(make_inner),
@@ -200,10 +203,14 @@ Method make_aclm_method(std::string name, std::string summary, std::vector<Param
 }
 
 Method aclm() {
-  return make_aclm_method(
+  Method method = make_aclm_method(
       "aclm", "fixed point on the De Saxce term; inner semismooth Newton, augmented Lagrangian", {},
       [](const Values&) { return MakeConvex(make_ssnal); },
       [](const Values&) -> Refuses { return refuse_zero_delassus; });
+  method.source +=
+      "; inner: Rockafellar, Math. Oper. Res. 1(2) (1976) 97-116; Zhao, Sun, Toh, SIAM J. Optim. "
+      "20(4) (2010) 1737-1765 (neither checked)";
+  return method;
 }
 
 }  // namespace conebench::solvers

@@ -181,25 +181,30 @@ Solver make(const Method& method, const Values& values) {
 }  // namespace
 
 Method admm() {
-  Method method{.name = "admm",
-                .kind = Kind::kMethod,
-                .summary = "alternating direction method of multipliers, factor kept, rho adapted",
-                .parameters = {{.name = "rho",
-                                .fallback = 1.0,
-                                .low = kLeastRho,
-                                .high = kLargestRho,
-                                .doc = "the first penalty, in units of 1 / lambda_i [-]"},
-                               {.name = "relaxation",
-                                .fallback = 1.0,
-                                .low = 0.5,
-                                .high = 1.95,
-                                .doc = "of u_hat against z; 1 is none [-]"},
-                               {.name = "anderson",
-                                .fallback = std::int64_t{5},
-                                .low = 0,
-                                .high = 100,
-                                .doc = "depth of Anderson acceleration; 0 is none"}},
-                .make = {}};
+  Method method{
+      .name = "admm",
+      .kind = Kind::kMethod,
+      .summary = "alternating direction method of multipliers, factor kept, rho adapted",
+      .source =
+          "Boyd, Parikh, Chu, Peleato, Eckstein, Found. Trends Mach. Learn. 3(1) (2011); on "
+          "contact: Tasora, Mangoni, Benatti, Garziera, Int. J. Numer. Meth. Engng 122(16) (2021); "
+          "Carpentier, Le Lidec, Montaut, arXiv:2405.17020 (none checked)",
+      .parameters = {{.name = "rho",
+                      .fallback = 1.0,
+                      .low = kLeastRho,
+                      .high = kLargestRho,
+                      .doc = "the first penalty, in units of 1 / lambda_i [-]"},
+                     {.name = "relaxation",
+                      .fallback = 1.0,
+                      .low = 0.5,
+                      .high = 1.95,
+                      .doc = "of u_hat against z; 1 is none [-]"},
+                     {.name = "anderson",
+                      .fallback = std::int64_t{5},
+                      .low = 0,
+                      .high = 100,
+                      .doc = "depth of Anderson acceleration; 0 is none"}},
+      .make = {}};
   method.make = [method](const Values& values) { return make(method, values); };
   return method;
 }

@@ -15,6 +15,8 @@ using problems::Problem;
 constexpr double kGrowth = 2.0, kShrinkage = 0.98;  // of L
 constexpr double kLeast = 1e-6;                     // L
 constexpr int kTrials = 60;                         // of one step
+// Of a product with W, both ways, and of what else an iteration does (work_s).
+constexpr double kSecondsPerEntry = 2e-9, kSecondsPerRow = 1e-8;
 
 class Apgd final : public Iteration {
  public:
@@ -22,6 +24,7 @@ class Apgd final : public Iteration {
       : problem_(problem),
         refresh_(refresh),
         product_(problem),
+        entries_(static_cast<double>((problem.is_primal() ? problem.H() : problem.W()).nonZeros())),
         mobility_(mobility_per_row(problem)) {}
 
   void start(const Eigen::VectorXd& r) override {
@@ -57,6 +60,7 @@ class Apgd final : public Iteration {
   double own_eta() const override {
     return convex_error(problem_, de_saxce_shift(problem_, u_), r_, u_);
   }
+  double work_s() const override { return work_s_; }
 
  private:
   // u_hat at y, with t of now or of the last time.
@@ -75,6 +79,7 @@ class Apgd final : public Iteration {
       next_ = y_ - gradient_.cwiseQuotient(mobility_) / L_;
       project_on_cones(problem_, next_);
       product_.rate(next_, u_next_);
+      work_s_ += kSecondsPerEntry * entries_ + kSecondsPerRow * static_cast<double>(r_.size());
       step_ = next_ - y_;
       const double curvature = step_.dot(u_next_ - u_y_);
       if (!(curvature > L_ * step_.cwiseAbs2().dot(mobility_)) || too_small_to_measure()) return;
@@ -102,6 +107,8 @@ class Apgd final : public Iteration {
   const Problem& problem_;
   std::int64_t refresh_;
   DelassusProduct product_;
+  double entries_;  // of H, or of W where there is none
+  double work_s_ = 0.0;
   Eigen::VectorXd mobility_;          // lambda_i on each row of cone i
   Eigen::VectorXd r_, u_, y_, u_y_;   // u at r, at y
   Eigen::VectorXd gradient_, shift_;  // at y; t e_n
@@ -120,11 +127,18 @@ Solver make(const Method& method, const Values& values) {
 
 }  // namespace
 
+std::unique_ptr<Iteration> make_apgd(const Problem& problem) {
+  return std::make_unique<Apgd>(problem, 1);
+}
+
 Method apgd() {
   Method method{
       .name = "apgd",
       .kind = Kind::kMethod,
       .summary = "accelerated projected gradient, restarted, De Saxce term refreshed",
+      .source =
+          "Mazhar, Heyn, Negrut, Tasora, ACM Trans. Graph. 34(3) (2015), Algorithm 1; restart: "
+          "O'Donoghue, Candes, Found. Comput. Math. 15 (2015) (neither checked)",
       .parameters = {{.name = "refresh",
                       .fallback = std::int64_t{1},
                       .low = 1,

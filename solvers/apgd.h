@@ -24,5 +24,6 @@ namespace conebench::solvers {
 ///         the associated problem (t = 0) with L of a random start and a shrinking of 10 %;
 ///         restart: O'Donoghue, Candes, Found. Comput. Math. 15 (2015) (neither checked).
 Method apgd();
+std::unique_ptr<Iteration> make_apgd(const problems::Problem& problem);
 
 }  // namespace conebench::solvers

@@ -8,6 +8,7 @@
 
 #include "problems/residual.h"
 #include "solvers/aclm.h"
+#include "solvers/apgd.h"
 #include "solvers/gs.h"
 #include "solvers/ipm.h"
 #include "solvers/newton/newton.h"
@@ -22,6 +23,7 @@ using problems::Problem;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the work that the lane has done
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
+constexpr int kFirstSteps = 100;     // of apgd
 constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
 constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
@@ -55,12 +57,12 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
 
 // Lane::first_promise of each.
 struct FirstPromise {
-  double gs, prox_newton, newton_ac, ipm, aclm;
+  double gs, apgd, prox_newton, newton_ac, ipm, aclm;
 };
-constexpr FirstPromise kOnGrid{30000.0, 0.0, 60000.0, 60000.0, 50000.0};
+constexpr FirstPromise kOnGrid{30000.0, 30000.0, 0.0, 60000.0, 60000.0, 50000.0};
 // Where W is singular for sure, the last three need more and dearer factorisations.
-constexpr FirstPromise kSingular{0.0, 300.0, 15000.0, 15000.0, 10000.0};
-constexpr FirstPromise kOtherwise{0.0, 300.0, 300.0, 1500.0, 1500.0};
+constexpr FirstPromise kSingular{1.0, 0.0, 300.0, 15000.0, 15000.0, 10000.0};
+constexpr FirstPromise kOtherwise{1.0, 0.0, 300.0, 300.0, 1500.0, 1500.0};
 
 FirstPromise first_promise(const Problem& problem) {
   if (!problem.is_primal()) return kOtherwise;
@@ -79,6 +81,7 @@ class Automatic final : public Iteration {
                         promise.gs, kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
+    lanes_.push_back({"apgd", make_apgd, promise.apgd, kFirstSteps, 1000, 0.0});
     lanes_.push_back({"prox-newton", make_proximal_newton, promise.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
                       promise.newton_ac, 1, 15, 1e-2});
@@ -222,7 +225,9 @@ Method automatic() {
   Method method{
       .name = "auto",
       .kind = Kind::kMethod,
-      .summary = "gs, prox-newton, newton-ac, aclm and ipm in turns; the one that gets on goes on",
+      .summary =
+          "apgd, gs, prox-newton, newton-ac, ipm, aclm in turns; the one that gets on goes on",
+      .source = "ours",
       .parameters = {},
       .make = {}};
   method.make = [method](const Values& values) {

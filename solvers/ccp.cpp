@@ -45,14 +45,16 @@ Problem associated_problem(const Problem& problem) {
 }
 
 Method cone_complementarity_model() {
-  Method method{.name = "ccp",
-                .kind = Kind::kModel,
-                .summary = "model: the associated law, a convex problem (Anitescu-Tasora)",
-                .parameters = {{.name = "method",
-                                .fallback = std::string("ipm"),
-                                .choices = {"aclm", "gs", "ipm", "spg"},
-                                .doc = "which of our methods solves the convex problem"}},
-                .make = {}};
+  Method method{
+      .name = "ccp",
+      .kind = Kind::kModel,
+      .summary = "model: the associated law, a convex problem (Anitescu-Tasora)",
+      .source = "Anitescu, Tasora, Comput. Optim. Appl. 47(2) (2010) 207-235 (not checked)",
+      .parameters = {{.name = "method",
+                      .fallback = std::string("ipm"),
+                      .choices = {"aclm", "gs", "ipm", "spg"},
+                      .doc = "which of our methods solves the convex problem"}},
+      .make = {}};
   method.make = [method](const Values& values) { return make(method, values); };
   return method;
 }

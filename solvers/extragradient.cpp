@@ -114,6 +114,10 @@ Method extragradient() {
       .name = "extragradient",
       .kind = Kind::kMethod,
       .summary = "extragradient on the Coulomb problem itself, step length adapted",
+      .source =
+          "Korpelevich, Matekon 13 (1977); step length: Khobotov, USSR Comput. Math. Math. Phys. "
+          "27 (1987), Marcotte, INFOR 29 (1991); correction: He, Liao, J. Optim. Theory Appl. 112 "
+          "(2002) (none checked)",
       .parameters = {{.name = "step",
                       .fallback = std::string("optimal"),
                       .choices = {"optimal", "unit"},

@@ -113,6 +113,10 @@ Method interior_point() {
   Method method{.name = "ipm",
                 .kind = Kind::kMethod,
                 .summary = "primal-dual interior point, the De Saxce term as an unknown",
+                .source =
+                    "Nesterov, Todd, SIAM J. Optim. 8(2) (1998); Mehrotra, SIAM J. Optim. 2(4) "
+                    "(1992); the De Saxce term as an unknown: an idea of Acary, Armand, Nguyen, "
+                    "Shpakovych (2022) (none checked; smoothing and globalisation are ours)",
                 .parameters = {},
                 .make = {}};
   method.make = [method](const Values& values) {
@@ -122,7 +126,7 @@ Method interior_point() {
 }
 
 Method aclm_interior_point() {
-  return make_aclm_method(
+  Method method = make_aclm_method(
       "aclm-ipm", "fixed point on the De Saxce term; inner primal-dual interior point",
       form_parameter(),
       [](const Values& values) -> MakeConvex {
@@ -136,6 +140,10 @@ Method aclm_interior_point() {
           return refuse_zero_delassus(problem);
         };
       });
+  method.source +=
+      "; inner: Nesterov, Todd, SIAM J. Optim. 8(2) (1998); Mehrotra, SIAM J. Optim. 2(4) (1992) "
+      "(neither checked)";
+  return method;
 }
 
 }  // namespace conebench::solvers

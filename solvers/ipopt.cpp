@@ -199,6 +199,9 @@ Method ipopt() {
   Method method{.name = "ipopt",
                 .kind = Kind::kMethod,
                 .summary = "Ipopt on the De Saxce gap: the whole problem as one smooth program",
+                .source =
+                    "Ipopt: Waechter, Biegler, Math. Program. 106(1) (2006) 25-57; cones: "
+                    "Vanderbei, Yurttan (1998) (neither checked)",
                 .parameters = {},
                 .make = {}};
   method.make = [method](const Values& values) {

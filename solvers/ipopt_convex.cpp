@@ -133,10 +133,13 @@ std::unique_ptr<ConvexIteration> make_ipopt_convex(const Problem& problem) {
 }
 
 Method aclm_ipopt() {
-  return make_aclm_method(
+  Method method = make_aclm_method(
       "aclm-ipopt", "fixed point on the De Saxce term; inner Ipopt on the convex cone program", {},
       [](const Values&) { return MakeConvex(make_ipopt_convex); },
       [](const Values&) { return Refuses(refuse_zero_delassus); });
+  method.source +=
+      "; inner: Ipopt, Waechter, Biegler, Math. Program. 106(1) (2006) 25-57 (not checked)";
+  return method;
 }
 
 }  // namespace conebench::solvers

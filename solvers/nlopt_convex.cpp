@@ -226,7 +226,7 @@ std::unique_ptr<ConvexIteration> make_nlopt_convex(const Problem& problem,
 }
 
 Method nlopt() {
-  return make_aclm_method(
+  Method method = make_aclm_method(
       "nlopt", "fixed point on the De Saxce term; inner NLopt on the reduced convex problem",
       {{.name = "algorithm",
         .fallback = std::string("slsqp"),
@@ -238,6 +238,10 @@ Method nlopt() {
         };
       },
       [](const Values& values) { return refuses(settings_from(values)); });
+  method.source +=
+      "; inner: NLopt; Kraft 1988 (slsqp); Svanberg, SIAM J. Optim. 12(2) (2002) 555-573 (mma, "
+      "ccsaq); Birgin, Martinez, Optim. Methods Softw. 23(2) (2008) (auglag) (none checked)";
+  return method;
 }
 
 }  // namespace conebench::solvers

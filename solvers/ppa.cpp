@@ -134,25 +134,29 @@ Solver make(const Method& method, const Values& values) {
 }  // namespace
 
 Method proximal_point() {
-  Method method{.name = "ppa",
-                .kind = Kind::kMethod,
-                .summary = "proximal point outside, Newton or Gauss-Seidel inside",
-                .parameters = {{.name = "inner",
-                                .fallback = std::string("ac"),
-                                .choices = {"ac", "fb", "gs"},
-                                .doc = "Alart-Curnier Newton, Fischer-Burmeister Newton, or sweeps "
-                                       "of Gauss-Seidel"},
-                               {.name = "weight",
-                                .fallback = Settings{}.weight,
-                                .low = 1e-10,
-                                .high = 1e3,
-                                .doc = "first weight alpha, as a share of lambda_i [-]"},
-                               {.name = "accuracy",
-                                .fallback = Settings{}.accuracy,
-                                .low = 1e-6,
-                                .high = 0.9,
-                                .doc = "inner tolerance, as a share of the step made [-]"}},
-                .make = {}};
+  Method method{
+      .name = "ppa",
+      .kind = Kind::kMethod,
+      .summary = "proximal point outside, Newton or Gauss-Seidel inside",
+      .source =
+          "Rockafellar, SIAM J. Control Optim. 14(5) (1976), criterion (B); PPA-NSN of Acary, "
+          "Bremond, Huber, RR-9118 (2017) (neither checked); the weight's rules are ours",
+      .parameters = {{.name = "inner",
+                      .fallback = std::string("ac"),
+                      .choices = {"ac", "fb", "gs"},
+                      .doc = "Alart-Curnier Newton, Fischer-Burmeister Newton, or sweeps "
+                             "of Gauss-Seidel"},
+                     {.name = "weight",
+                      .fallback = Settings{}.weight,
+                      .low = 1e-10,
+                      .high = 1e3,
+                      .doc = "first weight alpha, as a share of lambda_i [-]"},
+                     {.name = "accuracy",
+                      .fallback = Settings{}.accuracy,
+                      .low = 1e-6,
+                      .high = 0.9,
+                      .doc = "inner tolerance, as a share of the step made [-]"}},
+      .make = {}};
   method.make = [method](const Values& values) { return make(method, values); };
   return method;
 }

@@ -199,6 +199,9 @@ Method proximal_newton() {
   Method method{.name = "prox-newton",
                 .kind = Kind::kMethod,
                 .summary = "semismooth Newton on a proximal step of the Coulomb problem",
+                .source =
+                    "ours; Newton inside a proximal point is PPA-NSN of Acary, Bremond, Huber, "
+                    "RR-9118 (2017) (not checked)",
                 .parameters = {},
                 .make = {}};
   method.make = [method](const Values& values) {

@@ -151,6 +151,10 @@ Method pyramid_model() {
   Method method{.name = "pyramid",
                 .kind = Kind::kModel,
                 .summary = "model: pyramids for friction cones, a linear complementarity problem",
+                .source =
+                    "Anitescu, Potra, Nonlinear Dyn. 14 (1997) 231-247; Stewart, Trinkle, Int. J. "
+                    "Numer. Meth. Eng. 39 (1996) 2673-2691; Lemke: Cottle, Pang, Stone, The Linear "
+                    "Complementarity Problem (1992) (none checked); theta < mu: ours",
                 .parameters = {{.name = "faces",
                                 .fallback = std::int64_t{8},
                                 .low = 4,

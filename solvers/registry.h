@@ -14,7 +14,8 @@ using Values = std::map<std::string, Value>;
 struct Method {
   std::string name;
   Kind kind = Kind::kMethod;
-  std::string summary;  ///< one line
+  std::string summary;   ///< one line
+  std::string source{};  ///< papers, and what of them was not checked; the header says more
   std::vector<Parameter> parameters;
   std::function<Solver(const Values&)> make;  ///< values checked and complete
 };

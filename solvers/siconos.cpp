@@ -214,6 +214,7 @@ Method method_of(const Entry& entry) {
   Method method{.name = entry.name,
                 .kind = entry.kind,
                 .summary = entry.summary,
+                .source = "Siconos Numerics 4.4, a library of its own",
                 .parameters = {{.name = "max_iterations",
                                 .fallback = std::int64_t{1'000'000},
                                 .low = 1,

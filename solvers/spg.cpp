@@ -168,24 +168,27 @@ Solver make(const Method& method, const Values& values) {
 }  // namespace
 
 Method spectral_projected_gradient() {
-  Method method{.name = "spg",
-                .kind = Kind::kMethod,
-                .summary = "spectral projected gradient, non-monotone, De Saxce term refreshed",
-                .parameters = {{.name = "memory",
-                                .fallback = std::int64_t{10},
-                                .low = 1,
-                                .high = 100,
-                                .doc = "iterates that the line search compares with [-]"},
-                               {.name = "refresh",
-                                .fallback = std::int64_t{1},
-                                .low = 1,
-                                .high = 10000,
-                                .doc = "iterations between two refreshes of the De Saxce term [-]"},
-                               {.name = "step",
-                                .fallback = std::string("adaptive"),
-                                .choices = {"adaptive", "long", "short"},
-                                .doc = "which Barzilai-Borwein step length"}},
-                .make = {}};
+  Method method{
+      .name = "spg",
+      .kind = Kind::kMethod,
+      .summary = "spectral projected gradient, non-monotone, De Saxce term refreshed",
+      .source =
+          "Birgin, Martinez, Raydan, SIAM J. Optim. 10(4) (2000), Algorithm SPG2 (not checked)",
+      .parameters = {{.name = "memory",
+                      .fallback = std::int64_t{10},
+                      .low = 1,
+                      .high = 100,
+                      .doc = "iterates that the line search compares with [-]"},
+                     {.name = "refresh",
+                      .fallback = std::int64_t{1},
+                      .low = 1,
+                      .high = 10000,
+                      .doc = "iterations between two refreshes of the De Saxce term [-]"},
+                     {.name = "step",
+                      .fallback = std::string("adaptive"),
+                      .choices = {"adaptive", "long", "short"},
+                      .doc = "which Barzilai-Borwein step length"}},
+      .make = {}};
   method.make = [method](const Values& values) { return make(method, values); };
   return method;
 }

@@ -85,11 +85,16 @@ class Uzawa final : public Iteration {
 }  // namespace
 
 Method uzawa() {
-  Method method{.name = "uzawa",
-                .kind = Kind::kMethod,
-                .summary = "Uzawa's algorithm on the bipotential, all contacts at once",
-                .parameters = {},
-                .make = {}};
+  Method method{
+      .name = "uzawa",
+      .kind = Kind::kMethod,
+      .summary = "Uzawa's algorithm on the bipotential, all contacts at once",
+      .source =
+          "De Saxce, Feng, Int. J. Mech. Struct. Mach. 19(3) (1991); Math. Comput. Modelling 28 "
+          "(1998); Joli, Feng, Int. J. Numer. Meth. Engng 73 (2008) 317-330; the test on rho: "
+          "Khobotov, USSR Comput. Math. Math. Phys. 27 (1987) (none checked)",
+      .parameters = {},
+      .make = {}};
   method.make = [method](const Values& values) {
     return make_iterative_solver(method, values, refuse_zero_delassus, [](const Problem& problem) {
       return std::make_unique<Uzawa>(problem);

@@ -65,11 +65,14 @@ nlohmann::json finite_or_null(double x) {
 }
 
 nlohmann::json to_json(const Entrant& entrant, const Wish& wish) {
+  nlohmann::json times = nlohmann::json::array();
+  for (const double time : entrant.times_s) times.push_back(finite_or_null(time));
   return {{"solver", entrant.solver},
           {"steps", entrant.times_s.size()},
           {"within_budget", entrant.within(wish.budget_s)},
           {"solved", entrant.solved()},
           {"median_s", finite_or_null(entrant.quantile_s(0.5))},
+          {"times_s", times},
           {"dropped", entrant.dropped}};
 }
 
@@ -80,7 +83,9 @@ nlohmann::json to_json(const Advice& advice, const AdviceSamples& samples, const
       {"training_steps", samples.training.size()},
       {"validation_steps", samples.validation.size()},
       {"tol", wish.tol},
-      {"budget_s", wish.budget_s},
+      {"budget_s", wish.budget_s * samples.solves_per_step},
+      {"solves_per_step", samples.solves_per_step},
+      {"solve_budget_s", wish.budget_s},
       {"confidence", wish.confidence},
       {"meets", advice.meets},
       {"probability", advice.policy.probability},
@@ -88,7 +93,8 @@ nlohmann::json to_json(const Advice& advice, const AdviceSamples& samples, const
       {"virtual_best", advice.virtual_best},
       {"best_pair", {{"solvers", advice.pair}, {"share", advice.best_pair}}},
       {"nearest",
-       {{"solver", advice.nearest}, {"budget_s", finite_or_null(advice.nearest_budget_s)}}},
+       {{"solver", advice.nearest},
+        {"budget_s", finite_or_null(advice.nearest_budget_s * samples.solves_per_step)}}},
       {"ladder", nlohmann::json::array()},
       {"race", nlohmann::json::array()},
       {"validation", nlohmann::json::array()}};
@@ -115,7 +121,11 @@ void print_entrants(const std::vector<Entrant>& entrants, const Wish& wish) {
 
 void print_text(const Advice& advice, const AdviceSamples& samples, const Wish& wish) {
   fmt::print("wish      eta <= {:g} within {} a step, confidence {:g}\n", wish.tol,
-             results::format_time(wish.budget_s), wish.confidence);
+             results::format_time(wish.budget_s * samples.solves_per_step), wish.confidence);
+  if (samples.solves_per_step > 1.0) {
+    fmt::print("          {} a solve: a step takes {:.1f} of them\n",
+               results::format_time(wish.budget_s), samples.solves_per_step);
+  }
   fmt::print("samples   {}: {} steps, and {} unseen ones; {}\n", samples.scene,
              samples.training.size(), samples.validation.size(), samples.source);
   if (advice.policy.ladder.size() > 1) {
@@ -123,11 +133,11 @@ void print_text(const Advice& advice, const AdviceSamples& samples, const Wish& 
     fmt::print("          P(time <= budget and eta <= tol) >= {:.3f}\n", advice.policy.probability);
   }
   if (!advice.meets) {
+    const double nearest_s = advice.nearest_budget_s * samples.solves_per_step;
     fmt::print("          none meets this budget on {:.0f} % of the unseen steps; nearest: {}\n",
                100.0 * kEnough,
-               std::isfinite(advice.nearest_budget_s)
-                   ? fmt::format("{} with {}", advice.nearest,
-                                 results::format_time(advice.nearest_budget_s))
+               std::isfinite(nearest_s)
+                   ? fmt::format("{} with {}", advice.nearest, results::format_time(nearest_s))
                    : "none solves enough of them");
   }
   fmt::print(
@@ -142,13 +152,14 @@ void print_text(const Advice& advice, const AdviceSamples& samples, const Wish& 
 }
 
 int run_advise(const AdviseOptions& options) {
-  const Wish wish{.tol = options.tol,
-                  .budget_s = parse_duration_s(options.budget, "--budget"),
-                  .confidence = options.confidence};
+  Wish wish{.tol = options.tol,
+            .budget_s = parse_duration_s(options.budget, "--budget"),
+            .confidence = options.confidence};
   const std::vector<std::string> solvers = entrants(options);
   catch_interrupts();
   const AdviceSamples samples = take_samples(options);
   if (interrupted()) return kInterruptedExit;
+  wish.budget_s /= samples.solves_per_step;
   Advice advice = advise(samples.training, samples.validation, solvers, wish, samples.by_islands,
                          samples.fallback_limit_s);
   advice.policy.scene = samples.scene;

@@ -7,11 +7,12 @@ namespace conebench::harness {
 /// Each function adds one verb to the program. Its callback does the work after parsing and may
 /// set `exit_code`; errors are thrown (problems::InputError: 2, problems::OutputError: 3) and
 /// turned into one line on stderr by main(). Data goes to stdout, everything else to stderr.
-void add_problem(CLI::App& app, int& exit_code);  // list|show|verify|import|export|index|stats
-void add_scene(CLI::App& app, int& exit_code);    // list|show
+void add_problem(CLI::App& app,
+                 int& exit_code);               // list|show|verify|import|export|index|stats|shrink
+void add_scene(CLI::App& app, int& exit_code);  // list|show
 void add_simulate(CLI::App& app, int& exit_code);
 void add_export(CLI::App& app, int& exit_code);
-void add_solver(CLI::App& app, int& exit_code);  // list|show|check|new
+void add_solver(CLI::App& app, int& exit_code);  // list|show|reference|check|new
 void add_solve(CLI::App& app, int& exit_code);
 void add_plan(CLI::App& app, int& exit_code);
 void add_run(CLI::App& app, int& exit_code);

@@ -1,4 +1,4 @@
-// conebench problem list|show|verify|import|export|index|stats
+// conebench problem list|show|verify|import|export|index|stats; shrink: problem_shrink.cpp
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 
 #include "harness/commands/commands.h"
 #include "harness/commands/problem_proofs.h"
+#include "harness/commands/problem_shrink.h"
 #include "harness/commands/text_output.h"
 #include "harness/interrupt.h"
 #include "harness/units.h"
@@ -332,6 +333,7 @@ void add_problem(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"fclib", "conebench"}));
   export_verb->add_flag("--standard", o->standard,
                         "shift the cohesion away: kappa = 0, f', attribute rate_scale");
+  add_problem_shrink(*problem, exit_code);
 }
 
 }  // namespace conebench::harness

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/commands/commands.h"
+#include "harness/parameter_text.h"
 #include "harness/plugin.h"
 #include "harness/skeleton.h"
 #include "harness/solver_check.h"
+#include "harness/solver_reference.h"
 #include "harness/variants.h"
 #include "problems/error.h"
 #include "problems/suggest.h"
@@ -17,20 +19,6 @@ namespace conebench::harness {
 namespace {
 
 using nlohmann::json;
-
-std::string text_of(const solvers::Value& value) {
-  return std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
-}
-
-std::string range_of(const solvers::Parameter& p) {
-  if (!p.choices.empty()) return fmt::format("{}", fmt::join(p.choices, ", "));
-  if (std::holds_alternative<bool>(p.fallback)) return "true, false";
-  const bool low = std::isfinite(p.low), high = std::isfinite(p.high);
-  if (low && high) return fmt::format("{} to {}", p.low, p.high);
-  if (low) return fmt::format(">= {}", p.low);
-  if (high) return fmt::format("<= {}", p.high);
-  return "any";
-}
 
 json to_json(const solvers::Parameter& p) {
   json value = {{"name", p.name}, {"doc", p.doc}, {"choices", p.choices}};
@@ -46,6 +34,7 @@ json to_json(const solvers::Method& method) {
   return {{"name", method.name},
           {"kind", solvers::to_string(method.kind)},
           {"summary", method.summary},
+          {"source", method.source},
           {"parameters", parameters}};
 }
 
@@ -84,8 +73,10 @@ void show(const std::string& name, bool as_json) {
     return;
   }
   fmt::print("{} ({}): {}\n", method.name, solvers::to_string(method.kind), method.summary);
+  if (!method.source.empty()) fmt::print("source: {}\n", method.source);
   for (const auto& p : method.parameters) {
-    fmt::print("\n  {} = {}   ({})\n      {}\n", p.name, text_of(p.fallback), range_of(p), p.doc);
+    fmt::print("\n  {} = {}   ({})\n      {}\n", p.name, value_text(p.fallback), range_text(p),
+               p.doc);
   }
 }
 
@@ -96,6 +87,9 @@ int check(const std::string& variant, const std::vector<std::filesystem::path>& 
     fmt::print("{}  {}: {}, eta {}, {} iterations{}\n", result.passed ? "pass" : "FAIL",
                r.problem.name, results::to_string(r.status), results::format_eta(r.eta),
                r.iterations, r.error.empty() ? "" : ", " + r.error);
+    for (const std::string& note : r.notes) {
+      if (!result.passed) fmt::print("      {}\n", note);
+    }
     good = good && result.passed;
   }
   return good ? 0 : 1;
@@ -133,6 +127,10 @@ void add_solver(CLI::App& app, int& exit_code) {
       ->required();
   show_verb->add_flag("--json", options->json, "Print one JSON object");
   show_verb->callback([options] { show(options->name, options->json); });
+
+  CLI::App* reference_verb =
+      verb->add_subcommand("reference", "All of them in Markdown: what docs/solvers.md holds");
+  reference_verb->callback([] { fmt::print("{}", solver_reference(solvers::all_methods())); });
 
   CLI::App* check_verb = verb->add_subcommand(
       "check", "Run a solver on small problems of every kind, with known solutions");

@@ -66,6 +66,9 @@ Method alart_curnier_newton() {
   Method method{.name = "newton-ac",
                 .kind = Kind::kMethod,
                 .summary = "semismooth Newton on Alart and Curnier's function, proximal term",
+                .source =
+                    "Acary, Bremond, Huber, RR-9118 (2017), NSN-AC, and PPA-NSN for the proximal "
+                    "term (not checked)",
                 .parameters = common_parameters(),
                 .make = {}};
   method.parameters.push_back({.name = "rho",
@@ -88,11 +91,15 @@ Method alart_curnier_newton() {
 }
 
 Method fischer_burmeister_newton() {
-  Method method{.name = "newton-fb",
-                .kind = Kind::kMethod,
-                .summary = "semismooth Newton on Fischer and Burmeister's function, proximal term",
-                .parameters = common_parameters(),
-                .make = {}};
+  Method method{
+      .name = "newton-fb",
+      .kind = Kind::kMethod,
+      .summary = "semismooth Newton on Fischer and Burmeister's function, proximal term",
+      .source =
+          "Fukushima, Luo, Tseng, SIAM J. Optim. 12(2) (2002); Daviet, Bertails-Descoubes, "
+          "Boissieux, ACM Trans. Graph. 30(6) (2011) (neither checked)",
+      .parameters = common_parameters(),
+      .make = {}};
   method.make = [method](const Values& values) {
     return make(method, values, common_settings(Function::kFischerBurmeister, values));
   };

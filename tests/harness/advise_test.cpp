@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "problems/made_backwards.h"
 #include "results/binomial.h"
@@ -49,6 +50,36 @@ TEST(Advise, TheSolverThatNeverGetsThereLeavesTheRace) {
   EXPECT_EQ(entrants[1].solved(), 12);
 }
 
+TEST(Advise, ARaceMeetsStepsFromAllPartsOfARunSoon) {
+  for (const std::size_t count : {8u, 40u, 100u}) {
+    const std::vector<std::size_t> order = spread_order(count);
+    EXPECT_EQ(std::set<std::size_t>(order.begin(), order.end()).size(), count);
+    std::set<std::size_t> quarters;
+    for (std::size_t k = 0; k < 8; ++k) quarters.insert(4 * order[k] / count);
+    EXPECT_EQ(quarters.size(), 4u) << count;
+  }
+}
+
+TEST(Advise, OneHardStepAmongEasyOnesIsNoReasonToLeave) {
+  const Wish wish{.tol = 1e-8, .budget_s = 2.0};
+  const Entrant leader{.solver = "steady", .times_s = {1.0, 1.0, 1.0, 3.0}};
+  const Entrant quick{.solver = "quick", .times_s = {0.1, 0.1, 0.1, kInfinity}};
+  EXPECT_FALSE(out_of_the_race(quick, leader, wish));
+  const Entrant slow{.solver = "slow", .times_s = {1.9, 4.1, 4.1, 4.1}};
+  EXPECT_TRUE(out_of_the_race(slow, leader, wish));
+  const Entrant near{.solver = "near", .times_s = {1.9, 1.9, 4.1, 4.1}};
+  EXPECT_FALSE(out_of_the_race(near, leader, wish));
+}
+
+TEST(Advise, AShareThatIsSurelySmallerIsAReasonToLeave) {
+  const Wish wish{.tol = 1e-8, .budget_s = 2.0};
+  const Entrant leader{.solver = "sure", .times_s = std::vector<double>(12, 1.0)};
+  Entrant misses{.solver = "misses", .times_s = std::vector<double>(12, 3.0)};
+  EXPECT_TRUE(out_of_the_race(misses, leader, wish));
+  std::fill_n(misses.times_s.begin(), 10, 1.0);
+  EXPECT_FALSE(out_of_the_race(misses, leader, wish));
+}
+
 TEST(Advise, PromisesWhatUnseenStepsBear) {
   const Wish wish{.tol = 1e-8, .budget_s = 5.0, .confidence = 0.9};
   const Advice advice =
@@ -90,6 +121,20 @@ TEST_F(AdviseVerb, WritesAPolicyThatBothEnginesTake) {
     EXPECT_EQ(summary["steps_not_converged"], 0);
     EXPECT_GT(summary["iterations"], 0);
   }
+}
+
+// The stack is the same for every seed; a second run of it has nothing unseen.
+TEST_F(AdviseVerb, JudgesOnAnotherSeedOnlyWhereThatIsAnotherRun) {
+  const Ran same = conebench("advise stack --budget 1s --tol 1e-6 --samples 8 -s gs");
+  EXPECT_EQ(same.code, 0) << same.err;
+  EXPECT_THAT(same.out, HasSubstr("windows of one run in turn"));
+  EXPECT_THAT(same.out, HasSubstr("the seed changes nothing"));
+  const std::string sand =
+      "advise sand-column --set grid.cells=[16,4] --set duration_s=0.1 --budget 1s --samples 8 -s "
+      "gs";
+  EXPECT_THAT(conebench(sand).out, HasSubstr("it does with --set blocks[0].jitter=0.5"));
+  const Ran other = conebench(sand + " --set blocks[0].jitter=0.5");
+  EXPECT_THAT(other.out, HasSubstr("seed 1 to choose, seed 2 to judge")) << other.err;
 }
 
 TEST_F(AdviseVerb, TakesExportedProblems) {

@@ -139,6 +139,32 @@ TEST_F(SkeletonTest, AMissingLibraryIsBadInputInEveryVerb) {
   }
 }
 
+TEST_F(SkeletonTest, AProgramThatBreaksDownIsNotPassedAndSaysWhy) {
+  fs::create_directories(folder_ / "problems");
+  write_problems();
+  const problems::Problem open = make_named(small_recipes()[1]);  // r = 0 solves it
+  problems::write_problem_file(folder_ / "problems" / "open.h5",
+                               {{problems::PrimalData{open.M(), open.H(), 0.0 * open.f(),
+                                                      Eigen::VectorXd::Zero(open.rows())},
+                                 {open.cones().begin(), open.cones().end()},
+                                 {}},
+                                {},
+                                {},
+                                {}});
+  const Ran ran = shell(
+      "printf '#!/bin/sh\\necho no such module >&2\\nexit 1\\n' > broken && chmod +x broken && "
+      "conebench solver check exec:./broken problems");
+  EXPECT_EQ(ran.code, 1) << ran.err;
+  EXPECT_THAT(ran.out, testing::Not(HasSubstr("pass")));
+  std::size_t told = 0;
+  for (std::size_t at = 0; (at = ran.out.find("stderr: no such module", at)) != ran.out.npos;
+       ++at) {
+    ++told;
+  }
+  EXPECT_EQ(told, 3u) << ran.out;
+  EXPECT_THAT(ran.out, HasSubstr("exit code 1 without a solution file"));
+}
+
 TEST_F(SkeletonTest, TheInstalledHeaderIsEnough) {
   const std::string build = fs::path(CONEBENCH_PROGRAM).parent_path().string();
   const Ran ran =
