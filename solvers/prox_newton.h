@@ -12,8 +12,9 @@ namespace conebench::solvers {
 /// With N_i = theta_i e_n (0, u_it / |u_it|)^T, 0 where u_it = 0, a step solves (I + E (I + N) W)
 /// dr = F with E_i = sigma_i dP_K. For a given change of t that is the symmetric system of
 /// linear/normal_system.h; GMRES, one solve() of it an iteration and usually fewer than ten, finds
-/// that change, one entry a cone. The step is halved, up to 6 times, until |F| is below the larger
-/// of its last two values.
+/// that change, one entry a cone. The step's length is found by bisection on F.W dr, the slope of
+/// ssnal's merit function were t fixed (solvers/slope_search.h): no merit function of this problem,
+/// so that steps can cycle; then alpha grows.
 ///
 /// Newton converges from where eta / alpha is small, and a solved proximal step leaves eta near
 /// alpha times its length. So alpha starts at 3 eta, falls after every solved step, more after an
