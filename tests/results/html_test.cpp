@@ -83,7 +83,8 @@ TEST(Html, HoldsTheDataThatTheScriptReads) {
 TEST(Html, ShowsEveryPlotOfTheDataAsSvg) {
   const auto records = some_records();
   const std::string page = html_report({.records = records}, kFiles);
-  for (const json& plot : data_of(page).at("groups").at(0).at("plots")) {
+  const json data = data_of(page);
+  for (const json& plot : data.at("groups").at(0).at("plots")) {
     const std::string figure =
         between(page, "data-plot=\"" + plot.at("id").get<std::string>() + "\"", "</figure>");
     std::size_t images = 0;
