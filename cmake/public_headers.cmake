@@ -24,6 +24,6 @@ set(conebench_mpm_headers
   mpm/assembly.h mpm/cohesion_law.h mpm/export.h mpm/grid.h mpm/nodes.h mpm/particles.h
   mpm/rigid_body.h mpm/scene.h mpm/simulation.h mpm/step.h mpm/svg_frame.h mpm/tensor.h)
 set(conebench_results_headers
-  results/bootstrap.h results/compare.h results/journal.h results/paired_quantities.h
-  results/profiles.h results/record.h results/shares.h results/status.h results/store.h
-  results/tails.h results/text.h)
+  results/bootstrap.h results/compare.h results/journal.h results/line_file.h
+  results/paired_quantities.h results/profiles.h results/record.h results/shares.h
+  results/status.h results/store.h results/tails.h results/text.h)
