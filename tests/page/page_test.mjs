@@ -185,7 +185,9 @@ test('a choice changes what is drawn', () =>
     assert.notEqual(before, after);
   }));
 
+// Chromium drops what a page saves beyond ten files a second: no person is as quick.
 async function download(page, button) {
+  await page.waitForTimeout(150);
   const [file] = await Promise.all([page.waitForEvent('download'), button.click()]);
   return readFileSync(await file.path(), 'utf8');
 }
