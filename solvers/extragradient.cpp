@@ -36,7 +36,8 @@ class Extragradient final : public Iteration {
 
   State advance() override {
     const double ratio = predict();
-    const double length = tau_ * (optimal_step_ ? optimal_step() : 1.0);
+    const bool optimal = optimal_step_ && !too_small_to_measure();
+    const double length = tau_ * (optimal ? optimal_step() : 1.0);
     next_ = r_ - length * F_p_.cwiseQuotient(mobility_);
     project_on_cones(problem_, next_);
     if (!next_.allFinite()) return State::kDiverged;
