@@ -20,7 +20,8 @@ namespace conebench::solvers {
 /// same direction wherever F is monotone.
 ///
 /// Cost    two products with W an iteration, and one for each prediction repeated.
-/// Accuracy  where r - p is too small beside r to be measured, the correction is Korpelevich's: s is
+/// Accuracy  where r - p is too small beside r to be measured, the correction is Korpelevich's: s
+/// is
 ///         made of differences, and their rounding would stop at an eta of 1e-7 with reactions a
 ///         million times the rates' size.
 /// Own test (StopTest::kOwn)  eta from its own r and F(r).
