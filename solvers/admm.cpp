@@ -136,6 +136,8 @@ class Admm final : public Iteration {
 
   void balance() {
     next_look_ = static_cast<std::int64_t>(kNextLook * static_cast<double>(iterations_)) + 1;
+    // A gap of this size is rounding, which rho multiplies.
+    if ((u_hat_ - z_).norm() <= kTooSmallToMeasure * std::max(1.0, rho_) * r_.norm()) return;
     const double ratio = std::sqrt((u_hat_ - z_).norm() / (rho_ * z_change_.norm()));
     if (!(ratio > kWorthAFactor || ratio < 1.0 / kWorthAFactor)) return;
     change_rho(rho_ * std::clamp(ratio, 1.0 / kLargestChange, kLargestChange));

@@ -102,10 +102,9 @@ class OddProblems : public testing::TestWithParam<std::string> {
     if (GetParam() == "aclm-ipopt") owes_answers_ = false;
   }
 
-  // With reactions a million times the rates' size admm ends on what its linear system leaves, at
-  // an eta of 3e-7 to 5e-7.
+  // With reactions a million times the rates' size this one is still at 5e-8 after a million steps.
   void ask_less_where_reactions_swamp_rates() {
-    if (GetParam().starts_with("admm")) tol_ = 1e-6;
+    if (GetParam() == "admm[anderson=0]") tol_ = 1e-6;
   }
 
   Solver solver_ = solvers::make_solver(GetParam());
