@@ -44,6 +44,7 @@ class Admm final : public Iteration {
     largest_rho_ = kLargestRho;
     factors_ = 0;
     factor_is_for_rho_ = false;
+    in_increments_ = false;
     iterations_ = 0;
     next_look_ = kFirstLook;
     z_ = problem_.rate(r).cwiseQuotient(root_);
@@ -108,12 +109,17 @@ class Admm final : public Iteration {
     }
   }
 
-  // u_hat at r, z.
+  // u_hat at r, z: from q and the whole of r_hat, or from u(r) and what r_hat adds to r.
   void solve_linear_part() {
     u_hat_ = z_;
     add_de_saxce(problem_, u_hat_);
     shift_ = u_hat_ - z_;
-    b_ = r_ + rho_ * (z_ - shift_ - q_);
+    if (in_increments_) {
+      rate_ = problem_.rate(answer_).cwiseQuotient(root_);
+      b_ = rho_ * (z_ - shift_ - rate_);
+    } else {
+      b_ = r_ + rho_ * (z_ - shift_ - q_);
+    }
     if (problem_.is_primal()) {
       u_hat_ = system_.solve_root_rate(b_).cwiseQuotient(root_) / std::sqrt(rho_);
     } else {
@@ -121,7 +127,7 @@ class Admm final : public Iteration {
       u_hat_ = problem_.apply_delassus(x_.cwiseQuotient(root_)).cwiseQuotient(root_);
       carried_ += b_ - x_ - rho_ * u_hat_;
     }
-    u_hat_ += q_ + shift_;
+    u_hat_ += (in_increments_ ? rate_ : q_) + shift_;
   }
 
   void accelerate(double residual) {
@@ -136,8 +142,12 @@ class Admm final : public Iteration {
 
   void balance() {
     next_look_ = static_cast<std::int64_t>(kNextLook * static_cast<double>(iterations_)) + 1;
-    // A gap of this size is rounding, which rho multiplies.
-    if ((u_hat_ - z_).norm() <= kTooSmallToMeasure * std::max(1.0, rho_) * r_.norm()) return;
+    // A gap of this size is rounding, which rho multiplies unless increments alone are solved for.
+    if ((u_hat_ - z_).norm() <= kTooSmallToMeasure * std::max(1.0, rho_) * r_.norm()) {
+      if (!in_increments_) restart();
+      in_increments_ = true;
+      return;
+    }
     const double ratio = std::sqrt((u_hat_ - z_).norm() / (rho_ * z_change_.norm()));
     if (!(ratio > kWorthAFactor || ratio < 1.0 / kWorthAFactor)) return;
     change_rho(rho_ * std::clamp(ratio, 1.0 / kLargestChange, kLargestChange));
@@ -158,12 +168,13 @@ class Admm final : public Iteration {
   BlockDiagonal scaling_;  // sqrt(rho / lambda_i) I
   Anderson anderson_;
   double rho_ = 1.0, largest_rho_ = kLargestRho;
-  bool factor_is_for_rho_ = false;
+  bool factor_is_for_rho_ = false, in_increments_ = false;
   int factors_ = 0;
   std::int64_t iterations_ = 0, next_look_ = kFirstLook;
   Eigen::VectorXd zeta_, next_, r_, z_, z_change_, u_hat_;
   Eigen::VectorXd x_;        // reduced form only
   Eigen::VectorXd shift_;    // t e_n
+  Eigen::VectorXd rate_;     // u(r), of increments only
   Eigen::VectorXd b_;        // right-hand side for x
   Eigen::VectorXd carried_;  // of the equation for x, what the reduced form's factor left
   Eigen::VectorXd answer_;   // r in its own unit
