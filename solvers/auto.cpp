@@ -26,6 +26,7 @@ constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
 constexpr int kFirstSteps = 100;     // of apgd
 constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
 constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
+constexpr double kHesitation = 2.0;  // times what the lane's whole record promises, likewise
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 
 // One method, its iterate and its record.
@@ -38,9 +39,11 @@ struct Lane {
   double handover;           // a start is taken from others when better than its own by this factor
 
   std::unique_ptr<Iteration> iteration{};
-  double eta = kInfinity;  // at the end of its last turn
-  double done_s = 0.0;     // work in this run
-  double promise_s = 0.0;  // work that is left
+  double from = kInfinity;  // eta at its first start
+  double eta = kInfinity;   // at the end of its last turn
+  double best = kInfinity;  // eta at the end of any turn
+  double done_s = 0.0;      // work in this run
+  double promise_s = 0.0;   // work that is left
   std::int64_t steps = 0;
   bool over = false;  // diverged or stalled at the iterate it would start from again
 };
@@ -55,16 +58,17 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
   return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
 }
 
-// Lane::first_promise of each.
-struct FirstPromise {
+// Lane::first_promise of each, and usual steps of apgd.
+struct Expectations {
   double gs, apgd, prox_newton, newton_ac, ipm, aclm;
+  std::int64_t apgd_steps;
 };
-constexpr FirstPromise kOnGrid{30000.0, 30000.0, 0.0, 60000.0, 60000.0, 50000.0};
+constexpr Expectations kOnGrid{30000.0, 0.0, 300.0, 60000.0, 60000.0, 50000.0, 300};
 // Where W is singular for sure, the last three need more and dearer factorisations.
-constexpr FirstPromise kSingular{1.0, 0.0, 300.0, 15000.0, 15000.0, 10000.0};
-constexpr FirstPromise kOtherwise{1.0, 0.0, 300.0, 300.0, 1500.0, 1500.0};
+constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0, 1000};
+constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0, 1000};
 
-FirstPromise first_promise(const Problem& problem) {
+Expectations expectations(const Problem& problem) {
   if (!problem.is_primal()) return kOtherwise;
   // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
   const auto entries = static_cast<std::int64_t>(problem.H().nonZeros());
@@ -75,27 +79,27 @@ FirstPromise first_promise(const Problem& problem) {
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
-    const FirstPromise promise = first_promise(problem);
+    const Expectations expected = expectations(problem);
     if (!gauss_seidel_refuses(problem, kSkipping)) {
       lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); },
-                        promise.gs, kFirstSweeps, 0, 0.1});
+                        expected.gs, kFirstSweeps, 0, 0.1});
     }
     if (refuse_zero_delassus(problem)) return;
-    lanes_.push_back({"apgd", make_apgd, promise.apgd, kFirstSteps, 1000, 0.0});
-    lanes_.push_back({"prox-newton", make_proximal_newton, promise.prox_newton, 1, 80, 0.1});
+    lanes_.push_back({"apgd", make_apgd, expected.apgd, kFirstSteps, expected.apgd_steps, 0.0});
+    lanes_.push_back({"prox-newton", make_proximal_newton, expected.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
-                      promise.newton_ac, 1, 15, 1e-2});
+                      expected.newton_ac, 1, 60, 0.0});
     lanes_.push_back(
-        {"ipm", [](const Problem& p) { return make_ipm(p); }, promise.ipm, 1, 30, 0.0});
+        {"ipm", [](const Problem& p) { return make_ipm(p); }, expected.ipm, 1, 30, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
-                      promise.aclm, 1, 60, 0.1});
+                      expected.aclm, 1, 60, 0.1});
   }
 
   void start(const Eigen::VectorXd& r) override {
     guess_ = best_ = r;
-    best_eta_ = problems::evaluate_eta(problem_, r);
+    guess_eta_ = best_eta_ = problems::evaluate_eta(problem_, r);
     for (Lane& lane : lanes_) {
-      lane.eta = kInfinity;
+      lane.eta = lane.best = kInfinity;
       lane.done_s = 0.0;
       lane.steps = 0;
       lane.over = false;
@@ -154,6 +158,7 @@ class Automatic final : public Iteration {
     turn_s_ = 0.0;
     if (!lane.iteration) lane.iteration = lane.make(problem_);
     if (lane.steps == 0) {
+      lane.from = lane.handover > 0.0 ? best_eta_ : guess_eta_;
       lane.iteration->start(lane.handover > 0.0 ? best_ : guess_);
     } else if (best_eta_ < lane.handover * lane.eta) {
       lane.iteration->start(best_);
@@ -163,6 +168,7 @@ class Automatic final : public Iteration {
 
   State end_turn(Lane& lane, State state) {
     lane.eta = problems::evaluate_eta(problem_, lane.iteration->r());
+    lane.best = std::min(lane.best, lane.eta);
     if (lane.eta < best_eta_) {
       best_eta_ = lane.eta;
       best_ = lane.iteration->r();
@@ -171,16 +177,22 @@ class Automatic final : public Iteration {
       lane.over = true;
       lane.promise_s = kInfinity;
     } else if (lane.eta <= kProgress * turn_from_) {
-      const double fall = std::log(std::min(turn_from_, 1e3) / lane.eta);
-      lane.promise_s = turn_s_ * std::max(std::log(lane.eta / tol_), 0.0) / std::max(fall, 1e-3);
+      lane.promise_s = at_the_rate(turn_s_, turn_from_, lane.eta);
     } else {
-      lane.promise_s = kNoPromise * lane.done_s;
+      lane.promise_s = std::min(kNoPromise * lane.done_s,
+                                kHesitation * at_the_rate(lane.done_s, lane.from, lane.best));
     }
     if (state == State::kRunning && lane.steps < lane.usual_steps) {
       const double usual = static_cast<double>(lane.usual_steps) / static_cast<double>(lane.steps);
       lane.promise_s = std::min(lane.promise_s, (usual - 1.0) * lane.done_s);
     }
     return choose();
+  }
+
+  // The work to the tolerance of a lane that took eta down from one value to the other in `done_s`.
+  double at_the_rate(double done_s, double from, double to) const {
+    const double fall = std::log(std::min(from, 1e3) / to);
+    return done_s * std::max(std::log(to / tol_), 0.0) / std::max(fall, 1e-3);
   }
 
   State choose() {
@@ -215,7 +227,7 @@ class Automatic final : public Iteration {
   std::vector<Lane> lanes_;
   std::size_t current_ = 0;
   Eigen::VectorXd guess_, best_;
-  double best_eta_ = kInfinity;
+  double guess_eta_ = kInfinity, best_eta_ = kInfinity;
   double turn_s_ = 0.0, turn_from_ = kInfinity, total_s_ = 0.0;
 };
 

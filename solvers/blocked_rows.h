@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "problems/problem.h"
@@ -42,6 +43,8 @@ class BlockedRows {
   /// y for reactions r: F^T f + sum_i B_i^T r_i.
   Eigen::VectorXd scaled_velocity(const problems::Problem& problem, const Eigen::VectorXd& r) const;
 
+  /// Numbers in all blocks.
+  double entries() const { return static_cast<double>(values_.size()); }
   /// Bytes of the blocks and their indices.
   std::size_t bytes() const;
 
@@ -54,6 +57,39 @@ class BlockedRows {
   std::vector<int> run_start_;
   std::vector<double> values_;
 };
+
+/// Products with one of those blocks, D = dim at compile time or Eigen::Dynamic, L = run_length; x
+/// has dim entries, y points to the run's L.
+///
+/// y += B^T x. The sum before y: the next cone often adds to the same y.
+template <int D, int L, class Vector>
+void add_transposed_product(const double* block, const Vector& x, double* y) {
+  if constexpr (L == 1) {
+    *y += x.dot(Eigen::Map<const Eigen::Matrix<double, D, 1>>(block, x.size()));
+  } else {
+    using Run = Eigen::Matrix<double, L, 1>;
+    Run sum = x(0) * Eigen::Map<const Run>(block);
+    if constexpr (D == Eigen::Dynamic) {
+      for (Eigen::Index row = 1; row < x.size(); ++row) {
+        sum += x(row) * Eigen::Map<const Run>(block + row * L);
+      }
+    } else {
+      [&]<int... above>(std::integer_sequence<int, above...>) {
+        ((sum += x(above + 1) * Eigen::Map<const Run>(block + (above + 1) * L)), ...);
+      }
+      (std::make_integer_sequence<int, D - 1>());
+    }
+    Eigen::Map<Run>(y) += sum;
+  }
+}
+
+/// x += B y.
+template <int D, int L, class Vector>
+void add_product(const double* block, const double* y, Vector& x) {
+  using Block = Eigen::Matrix<double, D, L, (D == 1 || L > 1) ? Eigen::RowMajor : Eigen::ColMajor>;
+  x.noalias() += Eigen::Map<const Block>(block, x.size(), L) *
+                 Eigen::Map<const Eigen::Matrix<double, L, 1>>(y);
+}
 
 /// W cone by cone as dense blocks, columns increasing, for the Delassus form.
 /// Memory  8 d_i d_j + 8 bytes per block.

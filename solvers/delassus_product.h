@@ -1,13 +1,15 @@
 #pragma once
 
-#include "problems/problem.h"
+#include <optional>
+
+#include "solvers/blocked_rows.h"
 
 namespace conebench::solvers {
 
 /// Products with W for methods that do little else: W = B B^T with B = H F, F F^T = M^-1, where M
 /// is block diagonal; else those of problems::Problem. Same values as theirs but for rounding. Cost
-/// one pass over B each way, without allocation where M is block diagonal or W is given. Memory  12
-/// bytes a nonzero of B, and one entry a dof.
+/// one pass over the blocks of B each way, without allocation where M is block diagonal or W is
+/// given. Memory  that of BlockedRows, and one entry a dof.
 class DelassusProduct {
  public:
   /// `problem` must outlive it.
@@ -18,10 +20,13 @@ class DelassusProduct {
   /// u = W r + q.
   void rate(const Eigen::VectorXd& r, Eigen::VectorXd& u);
 
+  /// Of one product, roughly (Iteration::work_s).
+  double work_s() const;
+
  private:
   const problems::Problem& problem_;
-  problems::SparseMatrix B_;  // empty, and y_, unless M is block diagonal
-  Eigen::VectorXd y_;         // B^T r
+  std::optional<BlockedRows> rows_;  // where M is block diagonal
+  Eigen::VectorXd y_;                // B^T r
 };
 
 }  // namespace conebench::solvers

@@ -34,7 +34,7 @@ class VelocityCoupling {
     u = problem_.w().segment<D>(at, u.size());
     const double* block = rows_.blocks(i);
     for (const int run : rows_.runs(i)) {
-      u.noalias() += Block<D>(block, u.size(), L) * y_.segment<L>(run);
+      add_product<D, L>(block, y_.data() + run, u);
       block += u.size() * L;
     }
   }
@@ -44,16 +44,12 @@ class VelocityCoupling {
     constexpr int D = Vector::RowsAtCompileTime;
     const double* block = rows_.blocks(i);
     for (const int run : rows_.runs(i)) {
-      y_.segment<L>(run).noalias() += Block<D>(block, change.size(), L).transpose() * change;
+      add_transposed_product<D, L>(block, change, y_.data() + run);
       block += change.size() * L;
     }
   }
 
  private:
-  template <int D>
-  using Block = Eigen::Map<
-      const Eigen::Matrix<double, D, L, (D == 1 || L > 1) ? Eigen::RowMajor : Eigen::ColMajor>>;
-
   const problems::Problem& problem_;
   BlockedRows rows_;
   Eigen::VectorXd y_;

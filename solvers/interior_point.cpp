@@ -11,7 +11,7 @@ using problems::Cone;
 using problems::Problem;
 using State = Iteration::State;
 
-constexpr double kSecondsPerRow = 8e-6;  // of an iteration without its linear system (work_s)
+constexpr double kSecondsPerRow = 2e-6;  // of an iteration without its linear system (work_s)
 constexpr double kToBoundary = 0.995;    // share of the way to the cone's boundary
 constexpr double kLeastPush = 1e-12, kLargestPush = 1.0;  // into the interior, as shares of U
 // Cones of less mobility than this share of the largest start from no larger a reaction.

@@ -14,7 +14,7 @@ using problems::Cone;
 using problems::Problem;
 using State = Iteration::State;
 
-constexpr double kSecondsPerRow = 1e-6;  // of an iteration without its linear system (work_s)
+constexpr double kSecondsPerRow = 5e-7;  // of an iteration without its linear system (work_s)
 constexpr double kFirstAlpha = 1e-3, kLeastAlpha = 1e-8, kLargestAlpha = 1e3;
 // A proximal step is solved when its residual is below this share of the way it went.
 constexpr double kInexactness = 1e-2;

@@ -11,7 +11,7 @@
 
 namespace conebench::solvers {
 
-constexpr double kSecondsPerFlop = 0.2e-9, kSecondsPerNonzero = 25e-9;
+constexpr double kSecondsPerFlop = 0.04e-9, kSecondsPerNonzero = 3e-9;
 
 #ifdef CONEBENCH_SUITESPARSE
 // CHOLMOD, which would permute the matrix anew in every factorisation: its ordering is asked for

@@ -24,7 +24,7 @@ struct Lu::Factor : Eigen::SparseLU<Matrix> {
 };
 #endif
 
-constexpr double kSecondsPerFlop = 0.4e-9, kSecondsPerNonzero = 50e-9;
+constexpr double kSecondsPerFlop = 0.4e-9, kSecondsPerNonzero = 15e-9;
 
 Lu::Lu() : factor_(std::make_unique<Factor>()) {}
 Lu::~Lu() = default;

@@ -37,11 +37,13 @@ class ExportPolicies : public ProgramTest {
     return weights("out");
   }
 
-  // Runs until the provisional folder has a file, and then sends the signal.
+  // Runs until the provisional folder has a file, and then sends the signal; by itself it would run
+  // for minutes.
   Ran ended_by(const std::string& signal, const std::string& policy) const {
     const std::string script = (folder_ / "script.sh").string();
     std::ofstream(script)
-        << CONEBENCH_PROGRAM " export" + kSand + " --policy " + policy + " -o out &\n"
+        << CONEBENCH_PROGRAM " export" + kSand + " --steps 1000000 --policy " + policy +
+               " -o out &\n"
         << "until ls out/.*.provisional/*.h5 || ! kill -0 $!; do sleep 0.01; done >/dev/null 2>&1\n"
         << "kill -" << signal << " $!\n"
         << "wait $!\n";
