@@ -2,7 +2,7 @@
 """Processor milliseconds and bytes of a DEM step, by number of spheres, and where they go.
 
     dem_speed.py OUT.md [--program conebench] [--only 1000 10000 ...] [--solver auto]
-                 [--iterations 2000] [--limit 100]
+                 [--iterations 1000000] [--limit 100]
     dem_speed.py OUT.md --export [--pairs 2]
 
 Collapse of column-dry with 1e3 to 1e6 spheres, each run warm: every step starts from the reactions
@@ -196,7 +196,7 @@ def main():
     parser.add_argument("--program", type=pathlib.Path, default=common.PROGRAM)
     parser.add_argument("--only", type=int, nargs="*", help="these numbers of spheres")
     parser.add_argument("--solver", default="auto")
-    parser.add_argument("--iterations", type=int, default=2000, help="the most in a step")
+    parser.add_argument("--iterations", type=int, default=1000000, help="the most in a step")
     parser.add_argument("--limit", type=float, default=100, help="the most seconds in a step")
     parser.add_argument("--export", action="store_true", help="what export costs, nothing else")
     parser.add_argument("--pairs", type=int, default=2)

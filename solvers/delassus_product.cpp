@@ -1,5 +1,7 @@
 #include "solvers/delassus_product.h"
 
+#include <numeric>
+
 #include "solvers/local/one_cone.h"
 
 namespace conebench::solvers {
@@ -10,15 +12,17 @@ using problems::Problem;
 constexpr double kSecondsPerBlockEntry = 3.5e-10;  // both ways
 constexpr double kSecondsPerNonzero = 1e-9;
 
-// y = B^T r, then Wr = B y, with runs of L dofs.
+// y = B^T r of some cones, then u = B y, and q where it is given, of some, with runs of L dofs.
 template <int L>
 struct Products {
   const Problem& problem;
   const BlockedRows& rows;
+  std::span<const int> from, to;
 
-  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& y, Eigen::VectorXd& Wr) const {
+  void apply(const Eigen::VectorXd& r, Eigen::VectorXd& y, const Eigen::VectorXd* q,
+             Eigen::VectorXd& u) const {
     y.setZero();
-    for_each_cone([&]<int D>(int i, int at, int dim) {
+    for_each_cone(from, [&]<int D>(int i, int at, int dim) {
       const Eigen::Matrix<double, D, 1> part = r.segment<D>(at, dim);
       const double* block = rows.blocks(i);
       for (const int run : rows.runs(i)) {
@@ -26,27 +30,45 @@ struct Products {
         block += dim * L;
       }
     });
-    for_each_cone([&]<int D>(int i, int at, int dim) {
+    for_each_cone(to, [&]<int D>(int i, int at, int dim) {
       Eigen::Matrix<double, D, 1> sum = Eigen::Matrix<double, D, 1>::Zero(dim);
+      if (q != nullptr) sum = q->segment<D>(problem.start(i), dim);
       const double* block = rows.blocks(i);
       for (const int run : rows.runs(i)) {
         add_product<D, L>(block, y.data() + run, sum);
         block += dim * L;
       }
-      Wr.segment<D>(at, dim) = sum;
+      u.segment<D>(at, dim) = sum;
     });
   }
 
  private:
+  // function(cone, first row of its part, dim).
   template <class Function>
-  void for_each_cone(const Function& function) const {
-    for (int i = 0; i < problem.cone_count(); ++i) {
+  void for_each_cone(std::span<const int> cones, const Function& function) const {
+    int at = 0;
+    for (const int i : cones) {
       const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
-      with_dimension(dim,
-                     [&]<int D>() { function.template operator()<D>(i, problem.start(i), dim); });
+      with_dimension(dim, [&]<int D>() { function.template operator()<D>(i, at, dim); });
+      at += dim;
     }
   }
 };
+
+void apply(const Problem& problem, const BlockedRows& rows, std::span<const int> from,
+           const Eigen::VectorXd& r, Eigen::VectorXd& y, std::span<const int> to,
+           const Eigen::VectorXd* q, Eigen::VectorXd& u) {
+  switch (rows.run_length()) {
+    case 6:
+      return Products<6>{problem, rows, from, to}.apply(r, y, q, u);
+    case 3:
+      return Products<3>{problem, rows, from, to}.apply(r, y, q, u);
+    case 2:
+      return Products<2>{problem, rows, from, to}.apply(r, y, q, u);
+    default:
+      return Products<1>{problem, rows, from, to}.apply(r, y, q, u);
+  }
+}
 
 }  // namespace
 
@@ -54,39 +76,39 @@ DelassusProduct::DelassusProduct(const Problem& problem) : problem_(problem) {
   if (!problem.is_primal() || !problem.inertia().block_diagonal()) return;
   rows_.emplace(problem);
   y_.resize(rows_->scaled_dofs());
+  all_.resize(static_cast<std::size_t>(problem.cone_count()));
+  std::iota(all_.begin(), all_.end(), 0);
 }
 
 void DelassusProduct::apply(const Eigen::VectorXd& r, Eigen::VectorXd& Wr) {
-  if (!problem_.is_primal()) {
-    Wr.noalias() = problem_.W() * r;
-    return;
-  }
-  if (!rows_) {
+  if (rows_) {
+    Wr.resize(r.size());
+    solvers::apply(problem_, *rows_, all_, r, y_, all_, nullptr, Wr);
+  } else if (problem_.is_primal()) {
     Wr = problem_.apply_delassus(r);
-    return;
+  } else {
+    Wr.noalias() = problem_.W() * r;
   }
-  Wr.resize(r.size());
-  switch (rows_->run_length()) {
-    case 6:
-      return Products<6>{problem_, *rows_}.apply(r, y_, Wr);
-    case 3:
-      return Products<3>{problem_, *rows_}.apply(r, y_, Wr);
-    case 2:
-      return Products<2>{problem_, *rows_}.apply(r, y_, Wr);
-    default:
-      return Products<1>{problem_, *rows_}.apply(r, y_, Wr);
+}
+
+void DelassusProduct::rate(const Eigen::VectorXd& r, Eigen::VectorXd& u) {
+  if (rows_) {
+    u.resize(r.size());
+    return rate(all_, r, all_, u);
   }
+  apply(r, u);
+  u += problem_.q();
+}
+
+void DelassusProduct::rate(std::span<const int> from, const Eigen::VectorXd& r,
+                           std::span<const int> to, Eigen::VectorXd& u) {
+  solvers::apply(problem_, *rows_, from, r, y_, to, &problem_.q(), u);
 }
 
 double DelassusProduct::work_s() const {
   if (rows_) return kSecondsPerBlockEntry * rows_->entries();
   const auto& matrix = problem_.is_primal() ? problem_.H() : problem_.W();
   return kSecondsPerNonzero * static_cast<double>(matrix.nonZeros());
-}
-
-void DelassusProduct::rate(const Eigen::VectorXd& r, Eigen::VectorXd& u) {
-  apply(r, u);
-  u += problem_.q();
 }
 
 }  // namespace conebench::solvers

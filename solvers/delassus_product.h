@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "solvers/blocked_rows.h"
 
@@ -20,12 +22,20 @@ class DelassusProduct {
   /// u = W r + q.
   void rate(const Eigen::VectorXd& r, Eigen::VectorXd& u);
 
+  /// Whether products of some cones alone cost no more than those cones' share.
+  bool has_parts() const { return rows_.has_value(); }
+  /// u = W r + q of the cones `to`, where all but the cones `from` have r_i = 0; r and u hold their
+  /// parts one after another. Precondition: has_parts(); u has the size of its parts.
+  void rate(std::span<const int> from, const Eigen::VectorXd& r, std::span<const int> to,
+            Eigen::VectorXd& u);
+
   /// Of one product, roughly (Iteration::work_s).
   double work_s() const;
 
  private:
   const problems::Problem& problem_;
   std::optional<BlockedRows> rows_;  // where M is block diagonal
+  std::vector<int> all_;             // cones, then
   Eigen::VectorXd y_;                // B^T r
 };
 

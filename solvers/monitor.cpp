@@ -44,9 +44,10 @@ double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r, double wo
     best_eta_ = eta;
     best_ = r;
   }
+  const double growth = 1.0 + stop_.look_growth;
   next_look_ = std::max(
-      iteration + 1, static_cast<std::int64_t>(std::ceil(1.02 * static_cast<double>(iteration))));
-  next_look_work_s_ = 1.02 * work_s;
+      iteration + 1, static_cast<std::int64_t>(std::ceil(growth * static_cast<double>(iteration))));
+  next_look_work_s_ = growth * work_s;
   if (on_look_) on_look_(false);
   paused_ += Clock::now() - pause;
   return eta;

@@ -24,8 +24,8 @@ struct CurvePoint {
 /// A method calls check() with its iterate after every iteration (and once before the first).
 /// With StopTest::kCommon, eta is computed while the clock stands still: every method stops on the
 /// same test and none pays for it. To bound the cost of judging, eta is looked at when the
-/// iteration count or the work has grown by 2 % since the last look (every iteration up to 50);
-/// the clock has no say in it, so that two runs stop at the same iterate.
+/// iteration count or the work has grown by Stop::look_growth since the last look (with 2 % every
+/// iteration up to 50); the clock has no say in it, so that two runs stop at the same iterate.
 /// With StopTest::kOwn only the limits are watched.
 class Monitor {
  public:

@@ -42,6 +42,7 @@ void Stop::check() const {
   require(tol > 0.0, "stop", "tol = ", tol, ", expected > 0");
   require(max_iterations >= 0, "stop", "max_iterations = ", max_iterations, ", expected >= 0");
   require(time_limit_s > 0.0, "stop", "time limit = ", time_limit_s, " s, expected > 0");
+  require(look_growth > 0.0, "stop", "look growth = ", look_growth, ", expected > 0");
 }
 
 }  // namespace conebench::solvers

@@ -40,6 +40,8 @@ struct Stop {
   std::int64_t max_iterations = 1'000'000;  ///< of the solver's outermost loop, >= 0
   double time_limit_s = std::numeric_limits<double>::infinity();  ///< of solver time, > 0
   StopTest test = StopTest::kCommon;
+  /// kCommon looks at eta whenever iterations or work have grown by this share, > 0. [-]
+  double look_growth = 0.02;
 
   void check() const;  ///< throws InputError
 };

@@ -36,6 +36,7 @@ inline const std::vector<std::string> kEveryMethod = {
     "spg[refresh=10]",
     "apgd",
     "apgd[refresh=10]",
+    "apgd[skip=1]",
     "uzawa",
     "extragradient",
     "extragradient[step=unit]",

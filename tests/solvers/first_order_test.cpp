@@ -202,5 +202,45 @@ TEST(DelassusProduct, GivesTheProductsOfTheProblemInEveryForm) {
   }
 }
 
+// Reactions of three cones, rates of two, one of them among the three.
+TEST(DelassusProduct, GivesTheRatesOfSomeConesFromTheReactionsOfSome) {
+  const Problem problem = make_backwards({.cones = 12, .dims = {3, 6, 1}, .seed = 4}).problem;
+  DelassusProduct product(problem);
+  ASSERT_TRUE(product.has_parts());
+  const auto part = [&](auto& x, int i) -> auto{
+    return x.segment(problem.start(i), problem.cones()[static_cast<std::size_t>(i)].dim);
+  };
+  const auto packed = [&](const std::vector<int>& cones, const Eigen::VectorXd& whole) {
+    Eigen::VectorXd out;
+    for (const int i : cones) {
+      const Eigen::VectorXd added = part(whole, i);
+      out.conservativeResize(out.size() + added.size());
+      out.tail(added.size()) = added;
+    }
+    return out;
+  };
+  const std::vector<int> from = {1, 4, 9}, to = {4, 11};
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(problem.rows());
+  for (const int i : from) part(r, i).setConstant(1.0 + i);
+  const Eigen::VectorXd expected = packed(to, problem.rate(r));
+  Eigen::VectorXd u(expected.size());
+  product.rate(from, packed(from, r), to, u);
+  EXPECT_LE((u - expected).norm(), 1e-14 * expected.norm());
+  EXPECT_FALSE(DelassusProduct(coupled(problem)).has_parts());
+  EXPECT_FALSE(DelassusProduct(reduced(problem, problem.delassus())).has_parts());
+}
+
+// Some of the cones have no reaction at the answer, and others at the guess.
+TEST(Apgd, FindsTheAnswerWithConesLeftOutForLong) {
+  const Problem problem = make_backwards({.cones = 60, .dims = {3, 2, 6}, .seed = 5}).problem;
+  Eigen::VectorXd guess = Eigen::VectorXd::Zero(problem.rows());
+  for (int i = 0; i < problem.cone_count(); i += 2) guess(problem.start(i)) = 10.0;
+  for (const std::string solver : {"apgd[skip=1]", "apgd", "apgd[skip=10000]"}) {
+    const Result result =
+        make_solver(solver).solve(problem, {.stop = {.tol = 1e-9}, .guess = guess});
+    EXPECT_EQ(result.status, Status::kConverged) << solver;
+  }
+}
+
 }  // namespace
 }  // namespace conebench::solvers
