@@ -26,7 +26,9 @@ constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
 constexpr int kFirstSteps = 100;     // of apgd
 constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
 constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
-constexpr double kHesitation = 2.0;  // times what the lane's whole record promises, likewise
+constexpr double kHesitation = 2.0;  // times what the lane's whole record promises, likewise;
+constexpr double kDoubt = 1.0;       // times the work done at least
+constexpr double kLooseTol = 1e-4;   // from here on
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 
 // One method, its iterate and its record.
@@ -58,31 +60,36 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
   return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
 }
 
-// Lane::first_promise of each, and usual steps of apgd.
+// Lane::first_promise of each, usual steps of apgd, Lane::handover of gs.
 struct Expectations {
   double gs, apgd, prox_newton, newton_ac, ipm, aclm;
-  std::int64_t apgd_steps;
+  std::int64_t apgd_steps = 1000;
+  double gs_handover = 0.1;
 };
 constexpr Expectations kOnGrid{30000.0, 0.0, 300.0, 60000.0, 60000.0, 50000.0, 300};
+// The guess is right in what sweeps are slow at, which what apgd leaves is not.
+constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 60000.0, 60000.0, 50000.0, 300, 0.0};
 // Where W is singular for sure, the last three need more and dearer factorisations.
-constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0, 1000};
-constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0, 1000};
+constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
+constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
 
-Expectations expectations(const Problem& problem) {
+Expectations expectations(const Problem& problem, double tol) {
   if (!problem.is_primal()) return kOtherwise;
   // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
   const auto entries = static_cast<std::int64_t>(problem.H().nonZeros());
-  if (entries > 12 * static_cast<std::int64_t>(problem.rows())) return kOnGrid;
+  if (entries > 12 * static_cast<std::int64_t>(problem.rows())) {
+    return tol >= kLooseTol ? kLooselyOnGrid : kOnGrid;
+  }
   return problem.rows() > problem.dofs() ? kSingular : kOtherwise;
 }
 
 class Automatic final : public Iteration {
  public:
   Automatic(const Problem& problem, double tol) : problem_(problem), tol_(tol) {
-    const Expectations expected = expectations(problem);
+    const Expectations expected = expectations(problem, tol);
     if (!gauss_seidel_refuses(problem, kSkipping)) {
       lanes_.push_back({"gs", [](const Problem& p) { return make_gauss_seidel(p, kSkipping); },
-                        expected.gs, kFirstSweeps, 0, 0.1});
+                        expected.gs, kFirstSweeps, 0, expected.gs_handover});
     }
     if (refuse_zero_delassus(problem)) return;
     lanes_.push_back({"apgd", make_apgd, expected.apgd, kFirstSteps, expected.apgd_steps, 0.0});
@@ -179,8 +186,8 @@ class Automatic final : public Iteration {
     } else if (lane.eta <= kProgress * turn_from_) {
       lane.promise_s = at_the_rate(turn_s_, turn_from_, lane.eta);
     } else {
-      lane.promise_s = std::min(kNoPromise * lane.done_s,
-                                kHesitation * at_the_rate(lane.done_s, lane.from, lane.best));
+      lane.promise_s = std::clamp(kHesitation * at_the_rate(lane.done_s, lane.from, lane.best),
+                                  kDoubt * lane.done_s, kNoPromise * lane.done_s);
     }
     if (state == State::kRunning && lane.steps < lane.usual_steps) {
       const double usual = static_cast<double>(lane.usual_steps) / static_cast<double>(lane.steps);

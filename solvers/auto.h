@@ -18,14 +18,15 @@ namespace conebench::solvers {
 ///           inside the clock.
 /// Promise   a lane whose last turn of work t took ln(eta) down by g finishes within about
 ///           t ln(eta / tol) / g. One whose turn brought nothing promises twice what its whole
-///           record promises by the same rule, 4 times the work done at most, so that lanes without
+///           record promises by the same rule, 1 to 4 times the work done, so that lanes without
 ///           progress stay within a constant factor of each other. Before it has done the steps it
 ///           usually needs (apgd 1000, on grids 300; prox-newton 80, newton-ac 60, ipm 30, aclm
 ///           60), a lane promises at most the work of the rest; before its first turn, a number of
 ///           sweeps of gs, larger for the last three where H has more rows than columns, so that W
 ///           is singular. The lane that promises least begins: apgd, everywhere. Where rows of H
 ///           have more than 12 entries on average, so that cones are nodes of a grid, prox-newton
-///           is next, and all the others long after it.
+///           is next, and all the others long after it; but for tol >= 1e-4 gs comes before it,
+///           from the guess.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
