@@ -26,9 +26,11 @@ add_custom_command(OUTPUT ${manual}/conebench.1.gz ${manual}/conebench.bash
   DEPENDS conebench
   VERBATIM)
 add_custom_target(conebench_manual ALL DEPENDS ${manual}/conebench.1.gz ${manual}/conebench.bash)
-install(FILES ${manual}/conebench.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+# OPTIONAL: a build of the program alone has made neither.
+install(FILES ${manual}/conebench.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program
+  OPTIONAL)
 install(FILES ${manual}/conebench.bash RENAME conebench COMPONENT program
-  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions)
+  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/bash-completion/completions OPTIONAL)
 
 include(cmake/public_headers.cmake)
 

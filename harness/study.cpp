@@ -110,7 +110,8 @@ Study read_study(const std::filesystem::path& path) {
 
 Plan check(const Study& study) {
   Plan plan;
-  require(!study.solvers.empty(), "solvers", "none given");
+  require(!study.solvers.empty(), "-s, solvers",
+          "none given, expected some, e.g. auto gs newton-ac");
   require_distinct("tol", study.tolerances);
   require_distinct("mode", study.modes);
   require_distinct("donors", study.donors);

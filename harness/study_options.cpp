@@ -14,22 +14,27 @@ void StudyOptions::add_to(CLI::App& verb) {
   verb.add_option("-c,--study", file_, "Study file (TOML); options replace what it says")
       ->type_name("FILE");
   verb.add_option("-p,--problems", s.problems, "Problem files or folders")->type_name("PATH");
-  verb.add_option("-s,--solver", s.solvers, "Variants; lists make grids: gs[omega=0.8,1]")
+  verb.add_option("-s,--solver", s.solvers,
+                  "Solvers with their parameters (conebench solver list); several values try all: "
+                  "gs[omega=0.8,1]")
       ->type_name("SOLVER");
   verb.add_option("--where", s.where, "Of the problems those with, e.g. 'cones > 1e3'")
       ->type_name("CONDITION");
   verb.add_option("--tol", s.tolerances, "Tolerances on eta, the relative residual [-]")
+      ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--mode", s.modes,
                   "What a solve starts from: cold (r = 0), warm (the file's guess), sequence "
                   "(consecutive steps, each from the answer to the one before)")
       ->type_name("cold|warm|sequence")
+      ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--donor", s.donors,
                   "Mode sequence: whose answers are the guesses, `own` or variants")
       ->type_name("own|SOLVER")
       ->capture_default_str();
   verb.add_option("--threads", s.threads, "Of the libraries that solvers call")
+      ->delimiter(',')
       ->capture_default_str();
   verb.add_option("--time-limit", s.time_limit, "Solver time for one problem, e.g. 500ms, 60s")
       ->type_name("DURATION")

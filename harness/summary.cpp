@@ -72,6 +72,7 @@ void print_rankings(std::span<const results::Record> records) {
 }
 
 std::vector<results::Record> load_records(const std::filesystem::path& results_dir) {
+  problems::require(std::filesystem::exists(results_dir), results_dir.string(), "no such folder");
   results::JournalContent content = results::read_results(results_dir);
   if (content.torn_lines > 0) {
     fmt::print(stderr, "{}: {} torn lines do not count\n", results_dir.string(),

@@ -84,6 +84,7 @@ class Reader {
   std::string text_dataset(const std::string& dataset) const;
 
   [[noreturn]] void fail(const std::string& object, const std::string& detail) const;
+  [[noreturn]] void fail_not_finite(const std::string& dataset, Eigen::Index i, double value) const;
 
  private:
   struct Shape {

@@ -139,8 +139,15 @@ Eigen::VectorXd Reader::vector(const std::string& dataset, Eigen::Index size) co
     fail(dataset,
          "has " + std::to_string(values.size()) + " entries, expected " + std::to_string(size));
   }
-  if (!values.allFinite()) fail(dataset, "holds a NaN or an infinity, expected finite numbers");
+  for (Eigen::Index i = 0; i < size; ++i) {
+    if (!std::isfinite(values(i))) fail_not_finite(dataset, i, values(i));
+  }
   return values;
+}
+
+void Reader::fail_not_finite(const std::string& dataset, Eigen::Index i, double value) const {
+  throw InputError(subject_, dataset + "[" + std::to_string(i) + "] is " + std::to_string(value) +
+                                 ", expected a finite number");
 }
 
 void Reader::require_table(const std::string& dataset, const Shape& shape, Eigen::Index rows,
@@ -160,7 +167,9 @@ Geometry::Table Reader::table(const std::string& dataset, Eigen::Index rows,
       H5Dread(handle.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) {
     fail(dataset, "cannot be read, the file is damaged");
   }
-  if (!values.allFinite()) fail(dataset, "holds a NaN or an infinity, expected finite numbers");
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values.data()[i])) fail_not_finite(dataset, i, values.data()[i]);
+  }
   return values;
 }
 

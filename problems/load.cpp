@@ -111,7 +111,8 @@ FoundProblems find_problems(const std::vector<fs::path>& paths) {
     if (fs::is_directory(path)) {
       add_folder(path, found);
     } else {
-      require(belongs_in_list(path), path.string(), "is no problem file");
+      require(belongs_in_list(path), path.string(),
+              "is neither HDF5 nor Siconos' .dat text, expected a problem file");
       found.files.push_back(path);
     }
   }

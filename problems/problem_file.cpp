@@ -77,21 +77,30 @@ void write_matrix(hdf5::Writer& writer, const std::string& group, const SparseMa
 SparseMatrix read_matrix(const hdf5::Reader& reader, const std::string& group, Eigen::Index rows,
                          Eigen::Index cols) {
   if (!reader.has(group)) reader.fail(group, "is missing");
+  if (!reader.has(group + "/data")) {
+    reader.fail(group,
+                "has no member data, expected a group of compressed rows (data, indices, "
+                "indptr; attributes shape, format)");
+  }
   const std::vector<std::int64_t> shape = reader.whole_numbers(group, "shape", 2);
   require(shape[0] == rows && shape[1] == cols, reader.subject(), group, " has the shape ",
           shape[0], " x ", shape[1], ", expected ", rows, " x ", cols);
   const Eigen::VectorXd data = reader.vector(group + "/data");
   const std::vector<int> indices = reader.integers(group + "/indices");
   const std::vector<int> indptr = reader.integers(group + "/indptr");
-  require(!indptr.empty() && indices.size() == static_cast<std::size_t>(data.size()) &&
-              indptr.back() == data.size(),
+  const std::string format = reader.text(group, "format");
+  const bool by_columns = format == "csc";
+  const Eigen::Index begins = (by_columns ? cols : rows) + 1;
+  require(static_cast<Eigen::Index>(indptr.size()) == begins, reader.subject(), group,
+          "/indptr has ", indptr.size(), " entries, expected ", begins,
+          by_columns ? " (columns + 1)" : " (rows + 1)");
+  require(indices.size() == static_cast<std::size_t>(data.size()) && indptr.back() == data.size(),
           reader.subject(), group, " has ", data.size(), " values and ", indices.size(),
           " indices, expected both to be indptr's last entry");
   const CompressedArrays arrays{
       rows, cols, indptr, indices, {data.data(), static_cast<std::size_t>(data.size())}};
-  const std::string format = reader.text(group, "format");
   if (format == "csr") return from_compressed_rows(arrays, reader.subject(), group);
-  if (format == "csc") return from_compressed_columns(arrays, reader.subject(), group);
+  if (by_columns) return from_compressed_columns(arrays, reader.subject(), group);
   reader.fail(group, "has the format '" + format + "', expected 'csr' or 'csc'");
 }
 

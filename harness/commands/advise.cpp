@@ -182,16 +182,19 @@ void add_advise(CLI::App& app, int& exit_code) {
   verb->add_option("SCENE|PATH", options->subject, "A scene, or problem files and folders")
       ->type_name("")
       ->required();
-  verb->add_option("--budget", options->budget, "Wall clock of one step, e.g. 4ms")
+  verb->add_option("--budget", options->budget,
+                   "Wall clock of one step, e.g. 4ms; a bare number is seconds")
       ->type_name("DURATION")
       ->required();
-  verb->add_option("--tol", options->tol, "On eta")
+  verb->add_option("--tol", options->tol, "Tolerance on eta, the relative residual [-]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  verb->add_option("--confidence", options->confidence, "Of the probability that is stated")
+  verb->add_option("--confidence", options->confidence,
+                   "Of the lower bound that is printed as P(...) >= p")
       ->check(CLI::Range(0.5, 0.9999))
       ->capture_default_str();
-  verb->add_option("-s,--solver", options->solvers, "Variants to race (default: ours)")
+  verb->add_option("-s,--solver", options->solvers,
+                   "Solvers to race (default: ours, with some parameters)")
       ->type_name("SOLVER");
   verb->add_option("--samples", options->samples, "Steps drawn from each run of the scene")
       ->check(CLI::Range(2, 100000))

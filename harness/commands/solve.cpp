@@ -45,8 +45,9 @@ int exit_code_of(const results::Record& record, bool strict) {
 }
 
 int solve(const SolveOptions& options) {
+  problems::require(std::filesystem::exists(options.file), options.file, "no such file");
   problems::require(std::filesystem::is_regular_file(options.file), options.file,
-                    "is no file; expected one problem");
+                    "is no file, expected one problem (`run -p` takes folders)");
   Task task{.problems = {source_from_file(options.file)},
             .solver = make_solver(options.solver),
             .stop = options.settings.checked_stop(),
