@@ -104,6 +104,7 @@ struct Fault {
   const char* what;
   const char* file;
   std::function<void(Edit&)> make;
+  const char* says = "";
 };
 
 const std::vector<double> kThreeNumbers{1.0, 2.0, 3.0};
@@ -121,7 +122,12 @@ std::vector<Fault> faults_of_content() {
       {"a hash of another type", "primal",
        [](Edit& e) { e.put_attribute("/", "content_sha256", std::int64_t{1}); }},
       {"another number", "primal", [](Edit& e) { e.put("/problem/w", std::vector<double>(9)); }},
-      {"a NaN in w", "primal", [](Edit& e) { e.put("/problem/w", kNan); }},
+      {"a NaN in w", "primal", [](Edit& e) { e.put("/problem/w", kNan); }, "w[0] is nan"},
+      {"a NaN in mu", "primal",
+       [](Edit& e) {
+         e.put("/problem/mu", std::vector<double>{0.5, std::nan(""), 0.5});
+       },
+       "/problem/mu[1] is nan"},
       {"a NaN in the guess", "primal", [](Edit& e) { e.put("/guess/r", kNan); }},
       {"a NaN in the solution", "primal", [](Edit& e) { e.put("/solution/r", kNan); }},
       {"a negative mu", "primal",
@@ -178,6 +184,10 @@ std::vector<Fault> faults_of_structure() {
       {"no dim", "primal", [](Edit& e) { e.remove("/problem/dim"); }},
       {"no M", "primal", [](Edit& e) { e.remove("/problem/M"); }},
       {"no indptr", "primal", [](Edit& e) { e.remove("/problem/H/indptr"); }},
+      {"a short indptr", "primal", [](Edit& e) { e.put("/problem/H/indptr", std::vector<int>(9)); },
+       "/problem/H/indptr has 9 entries, expected 10 (rows + 1)"},
+      {"a dense matrix", "primal", [](Edit& e) { e.put_table("/problem/H", 9, 12); },
+       "/problem/H has no member data, expected a group of compressed rows"},
       {"a group for a dataset", "primal", [](Edit& e) { e.put_group("/problem/f"); }},
       {"a dangling link", "primal", [](Edit& e) { e.dangle("/problem/f"); }},
       {"integers for numbers", "primal",
@@ -230,6 +240,7 @@ TEST_F(Damage, EveryFaultIsNamedAndRefused) {
     } catch (const InputError& error) {
       EXPECT_EQ(error.subject(), at("damaged").string());
       EXPECT_GT(std::string(error.what()).size(), error.subject().size() + 10);
+      EXPECT_NE(std::string(error.what()).find(fault.says), std::string::npos) << error.what();
     }
   }
 }
