@@ -216,8 +216,9 @@ Advice advise(const std::vector<Sample>& training, const std::vector<Sample>& va
   const Entrant& chosen = advice.validation.front();
   const std::int64_t within = chosen.within(wish.budget_s);
   advice.meets = share(within, validation.size()) >= kEnough;
-  advice.policy.probability = results::binomial_lower_bound(
-      within, static_cast<std::int64_t>(validation.size()), wish.confidence);
+  std::vector<bool> successes;
+  for (const double time_s : chosen.times_s) successes.push_back(time_s <= wish.budget_s);
+  advice.policy.probability = results::run_lower_bound(successes, wish.confidence);
   // What follows the first has missed the budget anyway: the tolerance is still wanted.
   for (std::size_t k = 0; k < std::min<std::size_t>(2, names.size()); ++k) {
     advice.policy.ladder.push_back({names[k], k == 0 ? wish.budget_s : kPatience * wish.budget_s});

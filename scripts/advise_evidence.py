@@ -256,7 +256,7 @@ cohesive sand takes several solves, which share its budget; one of each step is 
 {promise}
 {kept} of {runs} unseen runs have at least the stated share of their steps within the budget. The
 share of a run of {args.steps} steps alone scatters by up to {scatter:.0f} points (one standard
-deviation). The bound takes the steps it was judged on as independent and the machine as it was: it
+deviation). The bound allows for steps of a run hanging together and takes the machine as it was: it
 knows neither how much runs differ nor what else will be running.
 
 ## How much is there to gain by choosing?

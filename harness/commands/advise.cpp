@@ -21,7 +21,8 @@ namespace {
 
 // What is raced unless the user says otherwise: methods that were the quickest somewhere.
 const std::vector<std::string> kEntrants = {
-    "auto", "gs", "gs[skip=10]", "gs[omega=1.3]", "prox-newton", "newton-ac", "ipm", "aclm", "spg"};
+    "auto",        "apgd",      "gs",  "gs[skip=10]", "gs[omega=1.3]",
+    "prox-newton", "newton-ac", "ipm", "aclm",        "spg"};
 
 struct AdviseOptions {
   std::vector<std::string> subject;

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace conebench::results {
 namespace {
@@ -37,6 +39,37 @@ TEST(BinomialLowerBound, CoversTheTruth) {
     }
     EXPECT_LE(missed, 0.05 * 4000 + 3.0 * std::sqrt(0.05 * 0.95 * 4000)) << p;
   }
+}
+
+TEST(RunLowerBound, IsTheBinomialOneWhereStepsDoNotHangTogether) {
+  std::vector<bool> alternating(36);
+  for (std::size_t i = 0; i < alternating.size(); i += 2) alternating[i] = true;
+  EXPECT_EQ(run_lower_bound(alternating, 0.95), binomial_lower_bound(18, 36, 0.95));
+  EXPECT_EQ(run_lower_bound(std::vector<bool>(36, true), 0.95), binomial_lower_bound(36, 36, 0.95));
+  EXPECT_EQ(run_lower_bound({true}, 0.95), binomial_lower_bound(1, 1, 0.95));
+}
+
+// One half of the run succeeds and the other fails: little more than two trials.
+TEST(RunLowerBound, IsLowWhereStepsHangTogether) {
+  std::vector<bool> halves(36);
+  std::fill_n(halves.begin(), 18, true);
+  EXPECT_LT(run_lower_bound(halves, 0.95), 0.5 * binomial_lower_bound(18, 36, 0.95));
+}
+
+// Runs whose steps repeat the one before in four of five cases: the binomial bound lies above the
+// truth in four times as many runs as 5 %, this one in few more.
+TEST(RunLowerBound, CoversTheTruthOfCorrelatedSteps) {
+  std::mt19937 random(2);
+  std::bernoulli_distribution repeats(0.8), succeeds(0.7);
+  int missed = 0, missed_by_binomial = 0;
+  for (int experiment = 0; experiment < 2000; ++experiment) {
+    std::vector<bool> steps = {succeeds(random)};
+    while (steps.size() < 100) steps.push_back(repeats(random) ? steps.back() : succeeds(random));
+    missed += run_lower_bound(steps, 0.95) > 0.7;
+    missed_by_binomial += binomial_lower_bound(std::ranges::count(steps, true), 100, 0.95) > 0.7;
+  }
+  EXPECT_LE(missed, 0.1 * 2000);
+  EXPECT_GE(missed_by_binomial, 0.2 * 2000);
 }
 
 }  // namespace
