@@ -69,7 +69,7 @@ class Apgd final : public Iteration {
     if (fresh) refresh_shift(u_y_);
     if (!step_from_y()) return State::kDiverged;
     way_ = next_ - r_;
-    const bool stalled = fresh && iterations_ % kStallCheck == 0 && without_progress();
+    const bool no_progress = fresh && iterations_ % kStallCheck == 0 && without_progress();
     const double beta = next_beta();
     y_ = next_ + beta * way_;
     u_y_ = (1.0 + beta) * u_next_ - beta * u_;
@@ -77,7 +77,7 @@ class Apgd final : public Iteration {
     u_.swap(u_next_);
     L_ = std::max(kShrinkage * L_, kLeast);
     write_answer();
-    return stalled ? State::kStalled : State::kRunning;
+    return no_progress && !somebody_wakes() ? State::kStalled : State::kRunning;
   }
 
   const Eigen::VectorXd& r() const override { return answer_; }
@@ -118,6 +118,12 @@ class Apgd final : public Iteration {
     mobility_ = parts_of(chosen, mobility_of_all_);
     next_.resizeLike(r_);
     awake_ = std::move(chosen);
+  }
+
+  bool somebody_wakes() {
+    const std::size_t before = awake_.size();
+    if (before < all_.size()) choose_awake(true);
+    return awake_.size() > before;
   }
 
   // Wakes everybody. Who slept gets the rate at r for that at y too.

@@ -25,8 +25,9 @@ using Files = std::vector<std::filesystem::path>;
 
 // What the demo compares: one of every kind of method, and Siconos where this build has it.
 std::vector<std::string> demo_variants() {
-  std::vector<std::string> variants = {
-      "auto", "gs", "gs[omega=1.3]", "gs[skip=10]", "newton-ac", "newton-fb", "aclm", "ipm", "spg"};
+  std::vector<std::string> variants = {"auto",        "apgd",      "gs",        "gs[omega=1.3]",
+                                       "gs[skip=10]", "newton-ac", "newton-fb", "aclm",
+                                       "ipm",         "spg"};
   for (const solvers::Method& method : solvers::all_methods()) {
     if (method.name == "siconos:nsgs" || method.name == "siconos:nsn-ac") {
       variants.push_back(method.name);
