@@ -21,8 +21,8 @@ import subprocess
 import common
 import scene_runs
 
-ENTRANTS = ("auto", "gs", "gs[skip=10]", "gs[omega=1.3]", "prox-newton", "newton-ac", "ipm", "aclm",
-            "spg")
+ENTRANTS = ("auto", "apgd", "gs", "gs[skip=10]", "gs[omega=1.3]", "prox-newton", "newton-ac", "ipm",
+            "aclm", "spg")
 JITTER = {"blocks[0].jitter": 0.5}  # without it no particle depends on the seed
 BALLS = scene_runs.balls(64) | {"duration_s": 0.3}
 SAND = JITTER | {"grid.cells": "[40,10]", "duration_s": 0.4}

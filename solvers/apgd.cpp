@@ -76,7 +76,7 @@ class Apgd final : public Iteration {
     r_.swap(next_);
     u_.swap(u_next_);
     L_ = std::max(kShrinkage * L_, kLeast);
-    write_answer();
+    write_parts(awake_, r_, answer_);
     return no_progress && !somebody_wakes() ? State::kStalled : State::kRunning;
   }
 
@@ -118,6 +118,8 @@ class Apgd final : public Iteration {
     mobility_ = parts_of(chosen, mobility_of_all_);
     next_.resizeLike(r_);
     awake_ = std::move(chosen);
+    answer_.setZero();
+    write_parts(awake_, r_, answer_);
   }
 
   bool somebody_wakes() {
@@ -169,11 +171,6 @@ class Apgd final : public Iteration {
     }
     parts.conservativeResize(size);
     return parts;
-  }
-
-  void write_answer() {
-    if (awake_.size() < all_.size()) answer_.setZero();
-    write_parts(awake_, r_, answer_);
   }
 
   void refresh_shift(const Eigen::VectorXd& u) {
