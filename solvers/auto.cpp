@@ -66,19 +66,22 @@ struct Expectations {
   std::int64_t apgd_steps = 1000;
   double gs_handover = 0.1;
 };
-constexpr Expectations kOnGrid{30000.0, 0.0, 300.0, 60000.0, 60000.0, 50000.0, 300};
+constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300};
+constexpr Expectations kOnPlaneGrid{15000.0, 15000.0, 0.0, 30000.0, 8000.0, 15000.0, 300};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.
-constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 60000.0, 60000.0, 50000.0, 300, 0.0};
+constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300, 0.0};
 // Where W is singular for sure, the last three need more and dearer factorisations.
 constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
 constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
 
 Expectations expectations(const Problem& problem, double tol) {
   if (!problem.is_primal()) return kOtherwise;
-  // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have.
-  const auto entries = static_cast<std::int64_t>(problem.H().nonZeros());
-  if (entries > 12 * static_cast<std::int64_t>(problem.rows())) {
-    return tol >= kLooseTol ? kLooselyOnGrid : kOnGrid;
+  // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have; in
+  // space twice as many as in the plane.
+  const double entries = static_cast<double>(problem.H().nonZeros()) / problem.rows();
+  if (entries > 12.0) {
+    if (tol >= kLooseTol) return kLooselyOnGrid;
+    return entries > 24.0 ? kOnGrid : kOnPlaneGrid;
   }
   return problem.rows() > problem.dofs() ? kSingular : kOtherwise;
 }

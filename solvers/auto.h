@@ -23,23 +23,22 @@ namespace conebench::solvers {
 ///           usually needs (apgd 1000, on grids 300; prox-newton 80, newton-ac 60, ipm 30, aclm
 ///           60), a lane promises at most the work of the rest; before its first turn, a number of
 ///           sweeps of gs, larger for the last three where H has more rows than columns, so that W
-///           is singular. The lane that promises least begins: apgd, everywhere. Where rows of H
-///           have more than 12 entries on average, so that cones are nodes of a grid, prox-newton
-///           is next, and all the others long after it; but for tol >= 1e-4 gs comes before it,
-///           from the guess.
+///           is singular. The lane that promises least begins: apgd. Where rows of H have more
+///           than 12 entries on average, so that cones are nodes of a grid, prox-newton is next,
+///           and all the others long after it; but for tol >= 1e-4 gs comes before it, from the
+///           guess, and for smaller ones prox-newton begins in the plane (up to 24 entries).
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
 ///           and apgd, which would lose its momentum. A lane that stopped goes on only in this way.
 ///
-/// Evidence: on hyperstatic piles Gauss-Seidel crawls where Newton with a proximal term finishes in
-/// a few steps, on sphere packings the other way round, and nothing in the data tells them apart
-/// beforehand; progress does. apgd first: on 24 steps of columns, a brick wall and mixed shapes
-/// 0.85 of the time without that lane in geometric mean, to eta <= 1e-3 and 1e-6 (0.6 of it in
-/// sum); to 1e-8, and on the files of FCLIB, Siconos and Sand6, no difference. Grids are known
-/// beforehand: on ten steps of sand-column (80 x 20 cells, eta <= 1e-5) Gauss-Seidel took 1.8 s a
-/// step and prox-newton 0.06 s. Aims at a small multiple of the best lane's time; there is no
-/// proof. Own test (StopTest::kOwn)  that of the lane, verified with eta.
+/// Evidence (results/published/auto.md): on hyperstatic piles Gauss-Seidel and apgd crawl where
+/// Newton with a proximal term finishes in some steps, on sphere packings the other way round, and
+/// nothing in the data tells them apart beforehand; progress does. apgd is the quickest of our
+/// methods on most problems of both engines, so that it begins; where it is not, Newton on grids,
+/// and at loose tolerances the sweeps, are. Aims at a small multiple of the best lane's time (1.4
+/// in geometric mean on 147 problems, 14 at worst); there is no proof. Own test (StopTest::kOwn)
+/// that of the lane, verified with eta.
 Method automatic();
 
 }  // namespace conebench::solvers
