@@ -66,8 +66,7 @@ class Apgd final : public Iteration {
                                               settings_.skip);
     }
     ++iterations_;
-    if (fresh) refresh_shift(u_y_);
-    if (!step_from_y()) return State::kDiverged;
+    if (!step_from_y(fresh)) return State::kDiverged;
     way_ = next_ - r_;
     const bool no_progress = fresh && iterations_ % kStallCheck == 0 && without_progress();
     const double beta = next_beta();
@@ -104,7 +103,7 @@ class Apgd final : public Iteration {
   // the others' rates are is not known until the next time.
   void choose_awake(bool fresh) {
     bring_up_to_date();
-    if (fresh) refresh_shift(u_y_);
+    if (fresh) refresh_shift();
     std::vector<int> chosen;
     for_each_awake([&]<int D>(int i, int at, const Cone& cone) {
       const Eigen::Matrix<double, D, 1> next = step<D>(i, at, cone);
@@ -173,17 +172,21 @@ class Apgd final : public Iteration {
     return parts;
   }
 
-  void refresh_shift(const Eigen::VectorXd& u) {
-    for_each_awake([&]<int D>(int i, int at, const Cone& cone) {
-      shift_(i) = cone.theta * problems::tangential_norm(u.segment<D>(at, cone.dim));
-    });
+  void refresh_shift() {
+    for_each_awake([&]<int D>(int i, int at, const Cone& cone) { refresh_shift<D>(i, at, cone); });
+  }
+
+  template <int D>
+  void refresh_shift(int i, int at, const Cone& cone) {
+    shift_(i) = cone.theta * problems::tangential_norm(u_y_.segment<D>(at, cone.dim));
   }
 
   // r+ = P_K(y - u_hat / (L lambda)) and u there, with L as large as the step asks for. False where
   // it is not finite.
-  bool step_from_y() {
+  bool step_from_y(bool fresh) {
     for (int trial = 0; trial < kTrials; ++trial) {
       for_each_awake([&]<int D>(int i, int at, const Cone& cone) {
+        if (fresh && trial == 0) refresh_shift<D>(i, at, cone);
         next_.segment<D>(at, cone.dim) = step<D>(i, at, cone);
       });
       rate(next_, u_next_);
