@@ -14,14 +14,14 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
   Result result;
   // With kCommon the monitor keeps the best iterate; with kOwn nobody else does.
   Eigen::VectorXd best = iteration.r();
-  double best_eta = iteration.own_eta();
+  double own_eta = iteration.own_eta(), best_eta = own_eta;
   std::int64_t next_verification = 0;
   auto verified = [&] {
     return stop.test == StopTest::kOwn &&
            problems::evaluate_eta(problem, iteration.r()) <= stop.tol;
   };
   while (true) {
-    if (stop.test == StopTest::kOwn && iteration.own_eta() <= stop.tol &&
+    if (stop.test == StopTest::kOwn && own_eta <= stop.tol &&
         result.iterations >= next_verification) {
       if (verified()) {
         result.status = Status::kConverged;
@@ -35,9 +35,12 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
     }
     const Iteration::State state = iteration.advance();
     ++result.iterations;
-    if (stop.test == StopTest::kOwn && iteration.own_eta() < best_eta) {
-      best = iteration.r();
-      best_eta = iteration.own_eta();
+    if (stop.test == StopTest::kOwn) {
+      own_eta = iteration.own_eta();
+      if (own_eta < best_eta) {
+        best = iteration.r();
+        best_eta = own_eta;
+      }
     }
     if (state == Iteration::State::kRunning) continue;
     if (state == Iteration::State::kInfeasible) {
