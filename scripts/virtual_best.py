@@ -17,7 +17,6 @@ import pathlib
 import statistics
 
 
-
 def rows_of(folder):
     for path in sorted(pathlib.Path(folder).glob("journal*.jsonl")):
         for line in path.read_text().splitlines():

@@ -28,11 +28,14 @@ namespace conebench::solvers {
 ///
 /// Cost    one solve with the factor an iteration, O(anderson) passes over r; reduced form: and a
 ///         product with W.
-/// Accuracy  rho multiplies the rounding in u_hat, so that it stays where |u_hat - z| is that
-/// small. Own test (StopTest::kOwn)  the largest entry of what rho balances, as a rate, over U. No
-/// convergence proof for friction; for theta = 0, with rho at rest and without Anderson, it is ADMM
-/// on a convex problem. Source  Boyd, Parikh, Chu, Peleato, Eckstein, Found. Trends Mach. Learn.
-/// 3(1) (2011), sections
+/// Accuracy  rho multiplies the rounding in u_hat. Where |u_hat - z| is no larger than that, rho
+///         stays, and r_hat - r is solved for from u(r): one product with W more an iteration.
+///
+/// Own test (StopTest::kOwn)  the largest entry of what rho balances, as a rate, over U.
+/// No convergence proof for friction; for theta = 0, with rho at rest and without Anderson, it is
+/// ADMM on a convex problem.
+///
+/// Source  Boyd, Parikh, Chu, Peleato, Eckstein, Found. Trends Mach. Learn. 3(1) (2011), sections
 ///         3.1, 3.4.1, 3.4.3; on contact: Tasora, Mangoni, Benatti, Garziera, Int. J. Numer. Meth.
 ///         Engng 122(16) (2021); Carpentier, Le Lidec, Montaut, arXiv:2405.17020 (none checked).
 ///         One state zeta and the carried residual: ours.

@@ -122,9 +122,10 @@ class Apgd final : public Iteration {
   }
 
   bool somebody_wakes() {
-    const std::size_t before = awake_.size();
-    if (before < all_.size()) choose_awake(true);
-    return awake_.size() > before;
+    if (awake_.size() == all_.size()) return false;
+    const std::vector<int> before = awake_;
+    choose_awake(true);
+    return !std::ranges::includes(before, awake_);
   }
 
   // Wakes everybody. Who slept gets the rate at r for that at y too.

@@ -20,10 +20,10 @@ namespace conebench::solvers {
 /// same direction wherever F is monotone.
 ///
 /// Cost    two products with W an iteration, and one for each prediction repeated.
-/// Accuracy  where r - p is too small beside r to be measured, the correction is Korpelevich's: s
-/// is
-///         made of differences, and their rounding would stop at an eta of 1e-7 with reactions a
-///         million times the rates' size.
+/// Accuracy  where r - p is too small beside r to be measured, the correction is Korpelevich's:
+///         s is made of differences, and their rounding would stop at an eta of 1e-7 with
+///         reactions a million times the rates' size.
+///
 /// Own test (StopTest::kOwn)  eta from its own r and F(r).
 /// Converges where F is monotone (theta = 0); friction makes F neither monotone nor
 /// pseudo-monotone, so that nothing is promised.

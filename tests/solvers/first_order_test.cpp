@@ -230,6 +230,21 @@ TEST(DelassusProduct, GivesTheRatesOfSomeConesFromTheReactionsOfSome) {
   EXPECT_FALSE(DelassusProduct(reduced(problem, problem.delassus())).has_parts());
 }
 
+// Reactions a million times the rates' size: what rho and the factor leave is rounding of them.
+TEST(Admm, SolvesForIncrementsWhereReactionsSwampRates) {
+  const Problem plain = make_backwards({.cones = 12, .mu_high = 0.4, .seed = 11}).problem;
+  std::vector<problems::Cone> cones(plain.cones().begin(), plain.cones().end());
+  for (problems::Cone& cone : cones) cone.kappa = 1e6;
+  const Problem primal = plain.with_laws(cones, plain.w()).shifted();
+  for (const Problem& problem : {primal, reduced(primal, primal.delassus())}) {
+    for (const std::string solver : {"admm", "admm[anderson=0]"}) {
+      const Result result =
+          make_solver(solver).solve(problem, {.stop = {.tol = 1e-8, .max_iterations = 1000}});
+      EXPECT_EQ(result.status, Status::kConverged) << solver << " " << problem.is_primal();
+    }
+  }
+}
+
 // Some of the cones have no reaction at the answer, and others at the guess.
 TEST(Apgd, FindsTheAnswerWithConesLeftOutForLong) {
   const Problem problem = make_backwards({.cones = 60, .dims = {3, 2, 6}, .seed = 5}).problem;
@@ -239,6 +254,12 @@ TEST(Apgd, FindsTheAnswerWithConesLeftOutForLong) {
     const Result result =
         make_solver(solver).solve(problem, {.stop = {.tol = 1e-9}, .guess = guess});
     EXPECT_EQ(result.status, Status::kConverged) << solver;
+    int open = 0;
+    for (int i = 0; i < problem.cone_count(); ++i) {
+      open += result.r.segment(problem.start(i), problem.cones()[static_cast<std::size_t>(i)].dim)
+                  .isZero(0.0);
+    }
+    EXPECT_GT(open, problem.cone_count() / 4) << "too few for any to be left out";
   }
 }
 
