@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace conebench::problems {
 
@@ -20,14 +21,16 @@ struct Cone {
 
 /// Euclidean norm of the tangential part x_t; 0 for d = 1.
 template <class Vector>
-double tangential_norm(const Eigen::MatrixBase<Vector>& x) {
-  return x.tail(x.size() - 1).norm();
+[[gnu::always_inline]] inline double tangential_norm(const Eigen::MatrixBase<Vector>& x) {
+  double square = 0.0;
+  for (Eigen::Index k = 1; k < x.size(); ++k) square += x(k) * x(k);
+  return std::sqrt(square);
 }
 
 /// Replaces x by its Euclidean projection on K_mu. Exact for mu = 0, where K is the half line
 /// x_n >= 0, x_t = 0, and for d = 1.
 template <class Vector>
-void project(double mu, Eigen::MatrixBase<Vector>& x) {
+[[gnu::always_inline]] inline void project(double mu, Eigen::MatrixBase<Vector>& x) {
   const double normal = x(0);
   const double tangential = tangential_norm(x);
   if (tangential <= mu * normal && normal >= 0.0) return;
@@ -37,7 +40,9 @@ void project(double mu, Eigen::MatrixBase<Vector>& x) {
   }
   const double scale = (normal + mu * tangential) / (1.0 + mu * mu);
   x(0) = scale;
-  if (tangential > 0.0) x.tail(x.size() - 1) *= mu * scale / tangential;
+  if (!(tangential > 0.0)) return;
+  const double shrinkage = mu * scale / tangential;
+  for (Eigen::Index k = 1; k < x.size(); ++k) x(k) *= shrinkage;
 }
 
 /// De Saxce's change of variable, in place: u becomes u + theta |u_t| e_n.

@@ -20,6 +20,8 @@ constexpr std::int64_t kFirstLook = 10;
 constexpr double kNextLook = 1.5;
 constexpr double kWorthAFactor = 2.0, kLargestChange = 10.0;  // of rho
 constexpr double kLeastRho = 1e-3, kLargestRho = 1e4;
+constexpr double kSolveWork = 0.1;       // of an iteration, as a share of a factorisation
+constexpr double kSecondsPerRow = 3e-8;  // of an iteration without its solve (work_s)
 
 struct Settings {
   double rho = 1.0;
@@ -58,6 +60,8 @@ class Admm final : public Iteration {
   State advance() override {
     if (!factor_is_for_rho_ && !factorize()) return State::kDiverged;
     solve_linear_part();
+    work_s_ +=
+        kSolveWork * system_.work_s() + kSecondsPerRow * static_cast<double>(problem_.rows());
     if (!u_hat_.allFinite()) return State::kDiverged;
     next_ = r_ - rho_ * (settings_.relaxation * u_hat_ + (1.0 - settings_.relaxation) * z_);
     const double residual = (next_ - zeta_).norm();
@@ -75,6 +79,7 @@ class Admm final : public Iteration {
   double own_eta() const override {
     return problem_.rate_scale() > 0.0 ? gap_ / problem_.rate_scale() : gap_;
   }
+  double work_s() const override { return work_s_; }
   std::vector<std::string> notes() const override {
     return {fmt::format("{} factorisations, rho = {:.3g} at last", factors_, rho_)};
   }
@@ -103,6 +108,7 @@ class Admm final : public Iteration {
       }
       ++factors_;
       factor_is_for_rho_ = system_.factorize_root(scaling_);
+      work_s_ += system_.work_s();
       if (factor_is_for_rho_ || rho_ <= kLeastRho) return factor_is_for_rho_;
       largest_rho_ = std::max(rho_ / kLargestChange, kLeastRho);
       change_rho(largest_rho_);
@@ -178,8 +184,9 @@ class Admm final : public Iteration {
   Eigen::VectorXd b_;        // right-hand side for x
   Eigen::VectorXd carried_;  // of the equation for x, what the reduced form's factor left
   Eigen::VectorXd answer_;   // r in its own unit
-  double least_ = 0.0;       // residual of zeta since Anderson restarted
-  double gap_ = 0.0;         // largest entry of u_hat - z and rho times the change of z, as rates
+  double work_s_ = 0.0;
+  double least_ = 0.0;  // residual of zeta since Anderson restarted
+  double gap_ = 0.0;    // largest entry of u_hat - z and rho times the change of z, as rates
 };
 
 Solver make(const Method& method, const Values& values) {
@@ -192,6 +199,10 @@ Solver make(const Method& method, const Values& values) {
 }
 
 }  // namespace
+
+std::unique_ptr<Iteration> make_admm(const Problem& problem) {
+  return std::make_unique<Admm>(problem, Settings{});
+}
 
 Method admm() {
   Method method{

@@ -40,5 +40,6 @@ namespace conebench::solvers {
 ///         Engng 122(16) (2021); Carpentier, Le Lidec, Montaut, arXiv:2405.17020 (none checked).
 ///         One state zeta and the carried residual: ours.
 Method admm();
+std::unique_ptr<Iteration> make_admm(const problems::Problem& problem);
 
 }  // namespace conebench::solvers

@@ -48,6 +48,7 @@ class Apgd final : public Iteration {
     awake_ = all_;
     mobility_ = mobility_of_all_;
     answer_ = r;
+    answer_is_old_ = false;
     project_on_cones(problem_, answer_);
     product_.rate(answer_, u_);
     r_ = y_ = answer_;
@@ -67,19 +68,22 @@ class Apgd final : public Iteration {
     }
     ++iterations_;
     if (!step_from_y(fresh)) return State::kDiverged;
-    way_ = next_ - r_;
     const bool no_progress = fresh && iterations_ % kStallCheck == 0 && without_progress();
     const double beta = next_beta();
-    y_ = next_ + beta * way_;
+    y_ = next_ + beta * (next_ - r_);
     u_y_ = (1.0 + beta) * u_next_ - beta * u_;
     r_.swap(next_);
     u_.swap(u_next_);
     L_ = std::max(kShrinkage * L_, kLeast);
-    write_parts(awake_, r_, answer_);
+    answer_is_old_ = true;
     return no_progress && !somebody_wakes() ? State::kStalled : State::kRunning;
   }
 
-  const Eigen::VectorXd& r() const override { return answer_; }
+  const Eigen::VectorXd& r() const override {
+    if (answer_is_old_) write_parts(awake_, r_, answer_);
+    answer_is_old_ = false;
+    return answer_;
+  }
 
   // Of the cones that are awake; the others were right when they were looked at last.
   double own_eta() const override {
@@ -118,7 +122,7 @@ class Apgd final : public Iteration {
     next_.resizeLike(r_);
     awake_ = std::move(chosen);
     answer_.setZero();
-    write_parts(awake_, r_, answer_);
+    answer_is_old_ = true;
   }
 
   bool somebody_wakes() {
@@ -191,10 +195,9 @@ class Apgd final : public Iteration {
         next_.segment<D>(at, cone.dim) = step<D>(i, at, cone);
       });
       rate(next_, u_next_);
-      step_ = next_ - y_;
-      const double square = step_.cwiseAbs2().dot(mobility_);
+      const double square = (next_ - y_).cwiseAbs2().dot(mobility_);
       if (!std::isfinite(square)) return false;
-      const double curvature = step_.dot(u_next_ - u_y_);
+      const double curvature = (next_ - y_).dot(u_next_ - u_y_);
       if (!(curvature > L_ * square) || too_small_to_measure()) return std::isfinite(curvature);
       L_ *= kGrowth;
     }
@@ -204,8 +207,8 @@ class Apgd final : public Iteration {
   template <int D>
   Eigen::Matrix<double, D, 1> step(int i, int at, const Cone& cone) const {
     const double length = 1.0 / (L_ * problem_.mobility()(i));
-    Eigen::Matrix<double, D, 1> part =
-        y_.segment<D>(at, cone.dim) - length * u_y_.segment<D>(at, cone.dim);
+    Eigen::Matrix<double, D, 1> part(cone.dim);
+    for (int k = 0; k < part.size(); ++k) part(k) = y_(at + k) - length * u_y_(at + k);
     part(0) -= length * shift_(i);
     problems::project(cone.mu, part);
     return part;
@@ -223,25 +226,27 @@ class Apgd final : public Iteration {
   }
 
   bool too_small_to_measure() const {
-    return size_of(step_) <= kTooSmallToMeasure * size_of(next_);
+    return size_of(next_ - y_) <= kTooSmallToMeasure * size_of(next_);
   }
 
   bool without_progress() const {
-    return std::max(size_of(way_), size_of(step_)) <= kNoProgress * size_of(r_);
+    return std::max(size_of(next_ - r_), size_of(next_ - y_)) <= kNoProgress * size_of(r_);
   }
 
   // max_i lambda_i |x_i| [rate_unit].
-  double size_of(const Eigen::VectorXd& x) const {
+  template <class Vector>
+  double size_of(const Eigen::MatrixBase<Vector>& x) const {
     double largest = 0.0;
     for_each_awake([&]<int D>(int i, int at, const Cone& cone) {
-      largest = std::max(largest, problem_.mobility()(i) * x.segment<D>(at, cone.dim).norm());
+      largest =
+          std::max(largest, problem_.mobility()(i) * x.template segment<D>(at, cone.dim).norm());
     });
     return largest;
   }
 
   // beta of weight_ = w: w (1 - w) / (w^2 + w+), where w+^2 = (1 - w+) w^2.
   double next_beta() {
-    if (step_.cwiseProduct(mobility_).dot(way_) < 0.0) {
+    if ((next_ - y_).cwiseProduct(mobility_).dot(next_ - r_) < 0.0) {
       weight_ = 1.0;
       return 0.0;
     }
@@ -278,10 +283,10 @@ class Apgd final : public Iteration {
   Eigen::VectorXd mobility_of_all_;  // lambda_i on each row of cone i
   Eigen::VectorXd mobility_;         // likewise
   Eigen::VectorXd shift_;            // of all: theta_i |u_it| at y, of now or of the last time
-  Eigen::VectorXd answer_;           // of all: r
+  mutable Eigen::VectorXd answer_;   // of all: r, where somebody asked for it since it moved
+  mutable bool answer_is_old_ = false;
   Eigen::VectorXd r_, u_, y_, u_y_;  // u at r, at y
   Eigen::VectorXd next_, u_next_;    // r+, u at it
-  Eigen::VectorXd way_, step_;       // r+ - r, r+ - y
   double L_ = 1.0, weight_ = 1.0;
   std::int64_t iterations_ = 0, next_choice_ = 0;
 };

@@ -8,6 +8,7 @@
 
 #include "problems/residual.h"
 #include "solvers/aclm.h"
+#include "solvers/admm.h"
 #include "solvers/apgd.h"
 #include "solvers/gs.h"
 #include "solvers/ipm.h"
@@ -24,6 +25,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the work that the lane has done
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
 constexpr int kFirstSteps = 100;     // of apgd
+constexpr int kFirstAdmmSteps = 10;
 constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
 constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
 constexpr double kHesitation = 2.0;  // times what the lane's whole record promises, likewise;
@@ -65,7 +67,9 @@ struct Expectations {
   double gs, apgd, prox_newton, newton_ac, ipm, aclm;
   std::int64_t apgd_steps = 1000;
   double gs_handover = 0.1;
+  double admm = kInfinity;  // never
 };
+constexpr double kLooseAdmm = 1000.0;
 constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300};
 constexpr Expectations kOnPlaneGrid{15000.0, 15000.0, 0.0, 30000.0, 8000.0, 15000.0, 300};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.
@@ -75,15 +79,19 @@ constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
 constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
 
 Expectations expectations(const Problem& problem, double tol) {
-  if (!problem.is_primal()) return kOtherwise;
+  const bool loose = tol >= kLooseTol;
   // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have; in
   // space twice as many as in the plane.
-  const double entries = static_cast<double>(problem.H().nonZeros()) / problem.rows();
+  const double entries =
+      problem.is_primal() ? static_cast<double>(problem.H().nonZeros()) / problem.rows() : 0.0;
   if (entries > 12.0) {
-    if (tol >= kLooseTol) return kLooselyOnGrid;
+    if (loose) return kLooselyOnGrid;
     return entries > 24.0 ? kOnGrid : kOnPlaneGrid;
   }
-  return problem.rows() > problem.dofs() ? kSingular : kOtherwise;
+  const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
+  Expectations expected = singular ? kSingular : kOtherwise;
+  if (loose) expected.admm = kLooseAdmm;
+  return expected;
 }
 
 class Automatic final : public Iteration {
@@ -96,6 +104,9 @@ class Automatic final : public Iteration {
     }
     if (refuse_zero_delassus(problem)) return;
     lanes_.push_back({"apgd", make_apgd, expected.apgd, kFirstSteps, expected.apgd_steps, 0.0});
+    if (expected.admm < kInfinity) {
+      lanes_.push_back({"admm", make_admm, expected.admm, kFirstAdmmSteps, 300, 0.0});
+    }
     lanes_.push_back({"prox-newton", make_proximal_newton, expected.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
                       expected.newton_ac, 1, 60, 0.0});
@@ -244,14 +255,14 @@ class Automatic final : public Iteration {
 }  // namespace
 
 Method automatic() {
-  Method method{
-      .name = "auto",
-      .kind = Kind::kMethod,
-      .summary =
-          "apgd, gs, prox-newton, newton-ac, ipm, aclm in turns; the one that gets on goes on",
-      .source = "ours",
-      .parameters = {},
-      .make = {}};
+  Method method{.name = "auto",
+                .kind = Kind::kMethod,
+                .summary =
+                    "apgd, gs, admm, prox-newton, newton-ac, ipm, aclm in turns; the one that gets "
+                    "on goes on",
+                .source = "ours",
+                .parameters = {},
+                .make = {}};
   method.make = [method](const Values& values) {
     auto run = [](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
                   Monitor& monitor) {

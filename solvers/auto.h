@@ -4,13 +4,13 @@
 
 namespace conebench::solvers {
 
-/// `auto`: accelerated projected gradient, Gauss-Seidel, Newton on the proximal point problem
+/// `auto`: accelerated projected gradient, Gauss-Seidel, ADMM, Newton on the proximal point problem
 /// (solvers/prox_newton.h), proximal Alart-Curnier Newton, the interior point and the fixed point
 /// aclm take turns on one problem, each for as long as it promises to be the first to finish.
 ///
-/// Lanes     apgd, gs[skip=10], prox-newton, newton-ac, ipm, aclm; each is made when its first turn
-///           comes and keeps its factorisations. One that refuses the problem is left out; a
-///           problem that all refuse is refused.
+/// Lanes     apgd, gs[skip=10], admm (for tol >= 1e-4, not on grids), prox-newton, newton-ac, ipm,
+///           aclm; each is made when its first turn comes and keeps its factorisations. One that
+///           refuses the problem is left out; a problem that all refuse is refused.
 /// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
 ///           takes the same turns in every run.
 /// Turn      lasts until the lane has done half as much work again as before it (at least one
@@ -20,17 +20,18 @@ namespace conebench::solvers {
 ///           t ln(eta / tol) / g. One whose turn brought nothing promises twice what its whole
 ///           record promises by the same rule, 1 to 4 times the work done, so that lanes without
 ///           progress stay within a constant factor of each other. Before it has done the steps it
-///           usually needs (apgd 1000, on grids 300; prox-newton 80, newton-ac 60, ipm 30, aclm
-///           60), a lane promises at most the work of the rest; before its first turn, a number of
-///           sweeps of gs, larger for the last three where H has more rows than columns, so that W
-///           is singular. The lane that promises least begins: apgd. Where rows of H have more
-///           than 12 entries on average, so that cones are nodes of a grid, prox-newton is next,
-///           and all the others long after it; but for tol >= 1e-4 gs comes before it, from the
-///           guess, and for smaller ones prox-newton begins in the plane (up to 24 entries).
+///           usually needs (apgd 1000, on grids 300; admm 300, prox-newton 80, newton-ac 60, ipm
+///           30, aclm 60), a lane promises at most the work of the rest; before its first turn, a
+///           number of sweeps of gs, larger for the last three where H has more rows than columns,
+///           so that W is singular. The lane that promises least begins: apgd. Where rows of H have
+///           more than 12 entries on average, so that cones are nodes of a grid, prox-newton is
+///           next, and all the others long after it; but for tol >= 1e-4 gs comes before it, from
+///           the guess, and for smaller ones prox-newton begins in the plane (up to 24 entries).
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
-///           and apgd, which would lose its momentum. A lane that stopped goes on only in this way.
+///           and apgd and admm, which would lose their momentum and their rho. A lane that stopped
+///           goes on only in this way.
 ///
 /// Evidence (results/published/auto.md): on hyperstatic piles Gauss-Seidel and apgd crawl where
 /// Newton with a proximal term finishes in some steps, on sphere packings the other way round, and

@@ -22,9 +22,11 @@ class ColouredSweep {
 #pragma omp parallel num_threads(threads_)
     {
       SweepSize mine;
-      for (const std::vector<int>& cones : colouring_.parallel()) {
+      for (const Colouring::Colour& colour : colouring_.parallel()) {
 #pragma omp for schedule(static)
-        for (std::size_t k = 0; k < cones.size(); ++k) sweeper.visit(cones[k], r, mine);
+        for (int s = 0; s < colour.stretches(); ++s) {
+          for (const int i : colour.stretch(s)) sweeper.visit(i, r, mine);
+        }
       }
 #pragma omp single
       for (const int i : colouring_.serial()) sweeper.visit(i, r, mine);

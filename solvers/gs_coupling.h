@@ -13,8 +13,9 @@ namespace conebench::solvers {
 ///
 /// with u and change of fixed or dynamic size.
 
-/// From mass-scaled velocities, in runs of L dofs: what a cone costs is its few bodies or nodes.
-template <int L>
+/// From mass-scaled velocities: what a cone costs is its few bodies or nodes. `Products` are those
+/// that suit the rows (with_products).
+template <class Products>
 class VelocityCoupling {
  public:
   VelocityCoupling(const problems::Problem& problem, BlockedRows rows)
@@ -31,22 +32,14 @@ class VelocityCoupling {
   template <class Vector>
   void rate(int i, int at, Vector& u) const {
     constexpr int D = Vector::RowsAtCompileTime;
-    u = problem_.w().segment<D>(at, u.size());
-    const double* block = rows_.blocks(i);
-    for (const int run : rows_.runs(i)) {
-      add_product<D, L>(block, y_.data() + run, u);
-      block += u.size() * L;
-    }
+    Vector sum = problem_.w().segment<D>(at, u.size());
+    Products::add_rate(rows_, i, y_.data(), sum);
+    u = sum;
   }
 
   template <class Vector>
   void moved(int i, const Vector& change) {
-    constexpr int D = Vector::RowsAtCompileTime;
-    const double* block = rows_.blocks(i);
-    for (const int run : rows_.runs(i)) {
-      add_transposed_product<D, L>(block, change, y_.data() + run);
-      block += change.size() * L;
-    }
+    Products::add_reaction(rows_, i, change, y_.data());
   }
 
  private:
@@ -69,17 +62,9 @@ class DelassusCoupling {
   template <class Vector>
   void rate(int i, int at, Vector& u) const {
     constexpr int D = Vector::RowsAtCompileTime;
-    u = problem_.q().segment<D>(at, u.size());
-    const double* block = W_.blocks(i);
-    for (const auto& entry : W_.entries(i)) {
-      if (D != Eigen::Dynamic && entry.dim == D) {
-        u.noalias() += Block<D>(block, D, D) * r_.segment<D>(entry.row, entry.dim);
-      } else {
-        u.noalias() +=
-            Block<Eigen::Dynamic>(block, u.size(), entry.dim) * r_.segment(entry.row, entry.dim);
-      }
-      block += u.size() * entry.dim;
-    }
+    Vector sum = problem_.q().segment<D>(at, u.size());
+    W_.add_rate(i, r_, sum);
+    u = sum;
   }
 
   template <class Vector>
@@ -88,10 +73,6 @@ class DelassusCoupling {
   }
 
  private:
-  template <int D>
-  using Block =
-      Eigen::Map<const Eigen::Matrix<double, D, D, D == 1 ? Eigen::ColMajor : Eigen::RowMajor>>;
-
   const problems::Problem& problem_;
   BlockedDelassus W_;
   Eigen::VectorXd r_;
@@ -102,22 +83,15 @@ inline bool has_velocity_form(const problems::Problem& problem) {
   return problem.is_primal() && problem.inertia().block_diagonal();
 }
 
-/// function(coupling), with the velocity coupling of the run length that suits the problem, or the
+/// function(coupling), with the velocity coupling that suits the problem, or the
 /// Delassus coupling. Precondition: has_velocity_form() where `velocity`.
 template <class Function>
 auto with_coupling(const problems::Problem& problem, bool velocity, Function&& function) {
   if (!velocity) return function(DelassusCoupling(problem));
   BlockedRows rows(problem);
-  switch (rows.run_length()) {
-    case 6:
-      return function(VelocityCoupling<6>(problem, std::move(rows)));
-    case 3:
-      return function(VelocityCoupling<3>(problem, std::move(rows)));
-    case 2:
-      return function(VelocityCoupling<2>(problem, std::move(rows)));
-    default:
-      return function(VelocityCoupling<1>(problem, std::move(rows)));
-  }
+  return with_products(rows, [&]<class Products>() {
+    return function(VelocityCoupling<Products>(problem, std::move(rows)));
+  });
 }
 
 }  // namespace conebench::solvers

@@ -16,6 +16,7 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
   Eigen::VectorXd best = iteration.r();
   double own_eta = iteration.own_eta(), best_eta = own_eta;
   std::int64_t next_verification = 0;
+  const auto iterate = [&]() -> const Eigen::VectorXd& { return iteration.r(); };
   auto verified = [&] {
     return stop.test == StopTest::kOwn &&
            problems::evaluate_eta(problem, iteration.r()) <= stop.tol;
@@ -29,7 +30,7 @@ Result drive(Iteration& iteration, const Problem& problem, const Stop& stop,
       }
       next_verification = result.iterations + 1 + result.iterations / 10;
     }
-    if (monitor.check(result.iterations, iteration.r(), iteration.work_s()) == Verdict::kStop) {
+    if (monitor.check(result.iterations, iterate, iteration.work_s()) == Verdict::kStop) {
       result.status = monitor.status();
       break;
     }

@@ -53,10 +53,11 @@ double Monitor::look(std::int64_t iteration, const Eigen::VectorXd& r, double wo
   return eta;
 }
 
-Verdict Monitor::check(std::int64_t iteration, const Eigen::VectorXd& r, double work_s) {
+Verdict Monitor::check(std::int64_t iteration, const std::function<const Eigen::VectorXd&()>& r,
+                       double work_s) {
   const std::optional<Status> reached = limit(iteration);
   if (stop_.test == StopTest::kCommon && (reached || look_is_due(iteration, work_s))) {
-    const double eta = look(iteration, r, work_s);
+    const double eta = look(iteration, r(), work_s);
     // The residual comes first: an answer that is good enough at the limit has converged.
     if (eta <= stop_.tol) {
       status_ = Status::kConverged;

@@ -43,8 +43,13 @@ class Monitor {
   /// still: for whoever measures more of a solve than its time.
   void on_look(std::function<void(bool begins)> hook) { on_look_ = std::move(hook); }
 
-  /// `work_s`: Iteration::work_s(), where iterations differ in cost.
-  Verdict check(std::int64_t iteration, const Eigen::VectorXd& r, double work_s = 0.0);
+  /// `r` is asked for when eta is looked at; `work_s`: Iteration::work_s(), where iterations differ
+  /// in cost.
+  Verdict check(std::int64_t iteration, const std::function<const Eigen::VectorXd&()>& r,
+                double work_s = 0.0);
+  Verdict check(std::int64_t iteration, const Eigen::VectorXd& r) {
+    return check(iteration, [&r]() -> const Eigen::VectorXd& { return r; });
+  }
 
   /// For a method that stops for a reason of its own: looks at r once more (kCommon) and answers
   /// kConverged if it is good enough, else `why`.

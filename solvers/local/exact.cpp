@@ -88,16 +88,17 @@ double ExactLocal<D>::least_eigenvalue() const {
 template <int D>
 bool ExactLocal<D>::stick(const Reduced& p, Tangent& rt, double& rn) const {
   if (!p.in_range || Wnn_ == 0.0) return false;
-  double free_square = 0.0;
-  rn = p.push;
+  double free_square = 0.0, normal = p.push;
   for (Eigen::Index k = 0; k < s_.size(); ++k) {
-    rt(k) = s_(k) > 0.0 ? -p.b(k) / s_(k) : 0.0;
-    rn -= w_(k) * rt(k);
+    const double component = s_(k) > 0.0 ? -p.b(k) / s_(k) : 0.0;
+    rt(k) = component;
+    normal -= w_(k) * component;
     if (s_(k) == 0.0) free_square += w_(k) * w_(k);
   }
-  const double fixed = rt.norm();
-  if (fixed <= mu_ * rn) return true;
+  rn = normal;
+  if (rn >= 0.0 && rt.squaredNorm() <= mu_ * mu_ * rn * rn) return true;
   if (free_square == 0.0) return false;
+  const double fixed = rt.norm();
 
   const double slope = mu_ * std::sqrt(free_square);  // gain in mu r_n per unit of y
   const double start = mu_ * rn;
@@ -244,8 +245,10 @@ template <int D>
 LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) const {
   const Eigen::Index tangents = q.size() - 1;
   const double qn = q(0);
-  const double opening = (mu_ - theta_) * q.tail(tangents).norm();
-  if (qn >= opening || (theta_ < mu_ && qn >= opening - kOpenGap * q.norm())) {
+  // No root where none is needed: the case found is what the processor waits for.
+  if (theta_ == mu_ ? qn >= 0.0
+                    : qn >= (mu_ - theta_) * q.template segment<kTangents>(1, tangents).norm() -
+                                kOpenGap * q.norm()) {
     r.setZero();
     return LocalCase::kOpen;
   }
@@ -260,8 +263,7 @@ LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) c
   Reduced p;
   p.qn = qn;
   p.push = Wnn_ > 0.0 ? -qn / Wnn_ : 0.0;
-  p.b.noalias() = Q_.transpose() * q.tail(tangents);
-  p.b -= w_ * qn;
+  p.b = Q_.transpose().lazyProduct(q.template segment<kTangents>(1, tangents)) - w_ * qn;
   p.in_range = true;
   for (Eigen::Index k = 0; k < tangents; ++k) {
     if (s_(k) > 0.0) continue;
@@ -279,8 +281,11 @@ LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) c
                                       : slide_dilating(p, slide_rate, rt, rn);
     if (!solved) return LocalCase::kNoSolution;
   }
-  r(0) = rn;
-  r.tail(tangents).noalias() = Q_ * rt;
+  Vector answer(tangents + 1);
+  answer(0) = rn;
+  for (Eigen::Index i = 0; i < tangents; ++i)
+    answer(i + 1) = Q_.row(i).transpose().cwiseProduct(rt).sum();
+  r = answer;
   return found;
 }
 

@@ -52,8 +52,7 @@ class OneCone {
   };
   struct Exact {
     LocalOutcome solve(const Vector& u, Vector& r) {
-      Vector q = u;
-      q.noalias() -= B * r;
+      const Vector q = u - B.lazyProduct(r);
       return solver.solve(q, r, slide_rate) == LocalCase::kNoSolution ? LocalOutcome::kNoSolution
                                                                       : LocalOutcome::kDone;
     }

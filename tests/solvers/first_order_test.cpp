@@ -204,11 +204,9 @@ TEST(DelassusProduct, GivesTheProductsOfTheProblemInEveryForm) {
 
 // Reactions of three cones, rates of two, one of them among the three.
 TEST(DelassusProduct, GivesTheRatesOfSomeConesFromTheReactionsOfSome) {
-  const Problem problem = make_backwards({.cones = 12, .dims = {3, 6, 1}, .seed = 4}).problem;
-  DelassusProduct product(problem);
-  ASSERT_TRUE(product.has_parts());
+  const Problem blocks = make_backwards({.cones = 12, .dims = {3, 6, 1}, .seed = 4}).problem;
   const auto part = [&](auto& x, int i) -> auto{
-    return x.segment(problem.start(i), problem.cones()[static_cast<std::size_t>(i)].dim);
+    return x.segment(blocks.start(i), blocks.cones()[static_cast<std::size_t>(i)].dim);
   };
   const auto packed = [&](const std::vector<int>& cones, const Eigen::VectorXd& whole) {
     Eigen::VectorXd out;
@@ -220,14 +218,17 @@ TEST(DelassusProduct, GivesTheRatesOfSomeConesFromTheReactionsOfSome) {
     return out;
   };
   const std::vector<int> from = {1, 4, 9}, to = {4, 11};
-  Eigen::VectorXd r = Eigen::VectorXd::Zero(problem.rows());
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(blocks.rows());
   for (const int i : from) part(r, i).setConstant(1.0 + i);
-  const Eigen::VectorXd expected = packed(to, problem.rate(r));
-  Eigen::VectorXd u(expected.size());
-  product.rate(from, packed(from, r), to, u);
-  EXPECT_LE((u - expected).norm(), 1e-14 * expected.norm());
-  EXPECT_FALSE(DelassusProduct(coupled(problem)).has_parts());
-  EXPECT_FALSE(DelassusProduct(reduced(problem, problem.delassus())).has_parts());
+  for (const Problem& problem : {blocks, reduced(blocks, blocks.delassus())}) {
+    DelassusProduct product(problem);
+    ASSERT_TRUE(product.has_parts());
+    const Eigen::VectorXd expected = packed(to, problem.rate(r));
+    Eigen::VectorXd u(expected.size());
+    product.rate(from, packed(from, r), to, u);
+    EXPECT_LE((u - expected).norm(), 1e-14 * expected.norm());
+  }
+  EXPECT_FALSE(DelassusProduct(coupled(blocks)).has_parts());
 }
 
 // Reactions a million times the rates' size: what rho and the factor leave is rounding of them.

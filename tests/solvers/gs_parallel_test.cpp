@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "problems/made_backwards.h"
@@ -21,17 +22,23 @@ Problem heap(int cones) {
 void expect_partition(const Colouring& colouring, int cones) {
   std::set<int> seen(colouring.serial().begin(), colouring.serial().end());
   std::size_t count = colouring.serial().size();
-  for (const std::vector<int>& colour : colouring.parallel()) {
-    EXPECT_GE(static_cast<int>(colour.size()), Colouring::kLeastParallel);
-    EXPECT_TRUE(std::ranges::is_sorted(colour));
-    seen.insert(colour.begin(), colour.end());
-    count += colour.size();
+  for (const Colouring::Colour& colour : colouring.parallel()) {
+    EXPECT_GE(static_cast<int>(colour.cones.size()), Colouring::kLeastParallel);
+    EXPECT_TRUE(std::ranges::is_sorted(colour.cones));
+    std::size_t in_stretches = 0;
+    for (int s = 0; s < colour.stretches(); ++s) {
+      EXPECT_LE(static_cast<int>(colour.stretch(s).size()), Colouring::kLongest);
+      in_stretches += colour.stretch(s).size();
+    }
+    EXPECT_EQ(in_stretches, colour.cones.size());
+    seen.insert(colour.cones.begin(), colour.cones.end());
+    count += colour.cones.size();
   }
   EXPECT_EQ(count, static_cast<std::size_t>(cones));
   EXPECT_EQ(seen.size(), count);
 }
 
-// No two cones of a colour are coupled by W.
+// No two cones of two stretches of a colour are coupled by W.
 void expect_apart(const Colouring& colouring, const Problem& problem) {
   const problems::SparseMatrix W = problem.delassus();
   std::vector<int> cone_of_row;
@@ -40,15 +47,51 @@ void expect_apart(const Colouring& colouring, const Problem& problem) {
                        static_cast<std::size_t>(problem.cones()[static_cast<std::size_t>(i)].dim),
                        i);
   }
-  for (const std::vector<int>& colour : colouring.parallel()) {
-    const std::set<int> same(colour.begin(), colour.end());
-    for (const int i : colour) {
+  for (const Colouring::Colour& colour : colouring.parallel()) {
+    std::map<int, int> stretch_of;
+    for (int s = 0; s < colour.stretches(); ++s) {
+      for (const int i : colour.stretch(s)) stretch_of[i] = s;
+    }
+    for (const auto& [i, s] : stretch_of) {
       for (problems::SparseMatrix::InnerIterator it(W, problem.start(i)); it; ++it) {
-        const int other = cone_of_row[static_cast<std::size_t>(it.col())];
-        EXPECT_TRUE(other == i || !same.contains(other)) << i << " and " << other;
+        const auto other = stretch_of.find(cone_of_row[static_cast<std::size_t>(it.col())]);
+        EXPECT_TRUE(other == stretch_of.end() || other->second == s)
+            << i << " and " << other->first;
       }
     }
   }
+}
+
+int longest_stretch(const Colouring& colouring) {
+  int longest = 0;
+  for (const Colouring::Colour& colour : colouring.parallel()) {
+    for (int s = 0; s < colour.stretches(); ++s) {
+      longest = std::max(longest, static_cast<int>(colour.stretch(s).size()));
+    }
+  }
+  return longest;
+}
+
+// A chain of bodies of 3 dofs, each held to the next by one cone; with `hub`, every fifth cone
+// holds its first body to the first of all instead.
+Problem chain(int cones, bool hub) {
+  std::vector<Eigen::Triplet<double, int>> H;
+  for (int i = 0; i < cones; ++i) {
+    const int other = hub && i % 5 == 0 ? 0 : i + 1;
+    for (int k = 0; k < 3; ++k) {
+      H.emplace_back(3 * i + k, 3 * (i == 0 ? 1 : i) + k, 1.0);
+      H.emplace_back(3 * i + k, 3 * other + k, -1.0);
+    }
+  }
+  const int dofs = 3 * (cones + 1);
+  problems::SparseMatrix jacobian(3 * cones, dofs), mass(dofs, dofs);
+  jacobian.setFromTriplets(H.begin(), H.end());
+  mass.setIdentity();
+  return Problem(
+      problems::PrimalData{mass, jacobian, Eigen::VectorXd::LinSpaced(dofs, -1.0, 1.0),
+                           Eigen::VectorXd::Zero(3 * cones)},
+      std::vector<problems::Cone>(static_cast<std::size_t>(cones), problems::Cone::coulomb(3, 0.5)),
+      {});
 }
 
 TEST(Colouring, OfBodiesSetsNeighboursApart) {
@@ -69,6 +112,32 @@ TEST(Colouring, OfWSetsNeighboursApart) {
   expect_partition(colouring, problem.cone_count());
   expect_apart(colouring, problem);
   EXPECT_GE(colouring.parallel().size(), 2u);
+}
+
+// Neighbours in a chain are neighbours in memory: stretches stay long and two colours do.
+TEST(Colouring, KeepsStretchesOfAChainLong) {
+  const Problem problem = chain(40000, false);
+  const Colouring colouring(problem,
+                            VelocityCoupling<RunProducts<3>>(problem, BlockedRows(problem)));
+  expect_partition(colouring, problem.cone_count());
+  EXPECT_EQ(colouring.parallel().size(), 2u);
+  EXPECT_TRUE(colouring.serial().empty());
+  EXPECT_GE(longest_stretch(colouring), 100);
+}
+
+// The cones of a hub come last and leave all others in their stretches.
+TEST(Colouring, LeavesAHubToOneThread) {
+  const Problem problem = chain(4000, true);
+  for (const bool velocity : {true, false}) {
+    with_coupling(problem, velocity, [&](const auto& coupling) {
+      const Colouring colouring(problem, coupling);
+      expect_partition(colouring, problem.cone_count());
+      expect_apart(colouring, problem);
+      EXPECT_EQ(colouring.serial().size(), 800u);
+      EXPECT_GE(longest_stretch(colouring), 10);
+      return 0;
+    });
+  }
 }
 
 TEST(GaussSeidelParallel, ThreadsChangeNoBit) {
