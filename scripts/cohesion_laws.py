@@ -17,6 +17,7 @@ import math
 import pathlib
 import subprocess
 
+import column_measures
 import common
 import scene_runs
 
@@ -65,6 +66,13 @@ def verdict(folder, cells):
     past = scene_runs.history(folder)
     return (f"{'stands' if stands(folder, cells) else 'falls'} (front {past['front_m'][-1]:.2f} m, "
             f"peak {past['fastest_m_s'][-1]:.2f} m/s)")
+
+
+def fallen(folder):
+    """Share of the sand that has moved by more than column_measures.FALLEN of the height."""
+    before = scene_runs.points_of(folder / "particles_000000.vtp")
+    moved = [math.dist(p, q) for p, q in zip(before, scene_runs.last_positions(folder))]
+    return sum(m > column_measures.FALLEN * HEIGHT for m in moved) / len(moved)
 
 
 def underdense_inside(folder, cells):
@@ -151,17 +159,19 @@ def row_of_starts(args, case, cells):
     regular = from_start(args, case, cells, "regular", {"blocks[0].jitter": 0})
     fronts = [scene_runs.history(folder)["front_m"][-1] for folder in folders]
     peaks = [scene_runs.history(folder)["fastest_m_s"][-1] for folder in folders]
+    moved = [100 * fallen(folder) for folder in folders]
     inside = [underdense_inside(folder, cells) for folder in folders]
     return (f"| {case} | {cells} x {cells // 4} | "
             f"{sum(stands(folder, cells) for folder in folders)} | "
-            f"{min(fronts):.2f} to {max(fronts):.2f} | {min(peaks):.2f} to {max(peaks):.2f} | "
+            f"{min(moved):.0f} to {max(moved):.0f} % | {min(fronts):.2f} to {max(fronts):.2f} | "
+            f"{min(peaks):.2f} to {max(peaks):.2f} | "
             f"{100 * sum(inside) / len(inside):.0f} % | {verdict(regular, cells)} |")
 
 
 def table_of_starts(args, grids):
-    lines = [f"| law | grid | of {len(SEEDS)} disturbed starts stand | fronts [m] | "
+    lines = [f"| law | grid | of {len(SEEDS)} disturbed starts stand | fallen | fronts [m] | "
              "peak speeds [m/s] | nodes inside below full density at the start | regular start |",
-             "|---|---|---|---|---|---|---|"]
+             "|---|---|---|---|---|---|---|---|"]
     return lines + [row_of_starts(args, case, cells) for case in CASES for cells in grids]
 
 
@@ -208,8 +218,9 @@ def main():
     lines += table_of_standing(args, grids)
     lines += ["", f"## From several starts (c = {COHESIONS[-1]} Pa)", "",
               "The grid is that of whole cells. *halves everywhere*: half-size cells throughout. "
-              "The same particles, 2 a whole cell and axis, but for the rows with 4. *regular "
-              "start*: not disturbed, in line with the grid.", ""]
+              "The same particles, 2 a whole cell and axis, but for the rows with 4. *fallen*: "
+              f"sand that has moved by more than {column_measures.FALLEN:g} H. *regular start*: not "
+              "disturbed, in line with the grid.", ""]
     lines += table_of_starts(args, grids)
     lines += ["", f"## The laws at work ({cells} x {cells // 4} cells)", ""]
     lines += table_of_laws(args, cells)
