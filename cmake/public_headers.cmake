@@ -21,7 +21,7 @@ set(conebench_dem_headers
   dem/placement.h dem/row_order.h dem/row_table.h dem/scene.h dem/shape.h dem/simulation.h
   dem/solid.h dem/step.h dem/svg_frame.h)
 set(conebench_mpm_headers
-  mpm/assembly.h mpm/cohesion_law.h mpm/export.h mpm/grid.h mpm/nodes.h mpm/particles.h
+  mpm/assembly.h mpm/cohesion_law.h mpm/export.h mpm/grid.h mpm/mesh.h mpm/nodes.h mpm/particles.h
   mpm/rigid_body.h mpm/scene.h mpm/simulation.h mpm/step.h mpm/svg_frame.h mpm/tensor.h)
 set(conebench_results_headers
   results/bootstrap.h results/compare.h results/journal.h results/line_file.h

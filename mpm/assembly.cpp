@@ -61,7 +61,7 @@ class Assembler {
  private:
   static constexpr int kSpin = D == 2 ? 1 : 3;
   static constexpr int kBodyDofs = D + kSpin;
-  static constexpr int kNeighbours = neighbour_count(D);
+  static constexpr int kMostNeighbours = neighbour_count(D, 2);
 
   void number_dofs() {
     dofs_ = 0;
@@ -153,7 +153,7 @@ class Assembler {
     Eigen::Index rows = stress_dim_ * nodes_.count();
     for (const Interface& contact : out_.interfaces) rows += contact.friction == 0.0 ? 1 : D;
     const Eigen::Index nonzeros =
-        stress_dim_ * nodes_.count() * kNeighbours * D + (D + 2 * kBodyDofs) * rows;
+        stress_dim_ * nodes_.count() * neighbour_count(D, 1) * D + (D + 2 * kBodyDofs) * rows;
     RowWriter writer(rows, dofs_, nonzeros);
     out_.data.w = Eigen::VectorXd::Zero(rows);
     for (int i = 0; i < nodes_.count(); ++i) write_stress_rows(i, writer);
@@ -181,17 +181,19 @@ class Assembler {
       const std::array<int, 3>* dof;
       Eigen::Matrix<double, kEntries<D>, D> strain;
     };
-    std::array<Block, kNeighbours> blocks;
+    std::array<Block, kMostNeighbours> blocks;
     std::size_t count = 0;
     const auto slot = static_cast<std::size_t>(node);
-    const Grid& grid = scene_.grid;
+    const Grid& grid = nodes_.mesh.grid();
     const int row = grid.cells[0] + 1, layer = row * (grid.cells[1] + 1);
-    for (int k = 0; k < kNeighbours; ++k) {
-      const Vec<D> g =
-          nodes_.coupling[slot * kNeighbours + static_cast<std::size_t>(k)].template head<D>();
+    const int reach = nodes_.mesh.reach(), side = 2 * reach + 1;
+    const int neighbours = neighbour_count(D, reach);
+    const Eigen::Vector3d* coupling = nodes_.coupling.data() + Eigen::Index{node} * neighbours;
+    for (int k = 0; k < neighbours; ++k) {
+      const Vec<D> g = coupling[k].template head<D>();
       if (g.isZero(0.0)) continue;
-      const int other =
-          nodes_.index[slot] + k % 3 - 1 + (k / 3 % 3 - 1) * row + (D == 3 ? k / 9 - 1 : 0) * layer;
+      const int other = nodes_.index[slot] + k % side - reach + (k / side % side - reach) * row +
+                        (D == 3 ? k / (side * side) - reach : 0) * layer;
       const int place = nodes_.slot_of[static_cast<std::size_t>(other)];
       if (place < 0) continue;
       blocks[count++] = {&out_.dof[static_cast<std::size_t>(place)], strain_block<D>(g)};

@@ -71,7 +71,8 @@ void for_each_total(Totals& s, const F& f) {
 
 // The engine trusts both: a stencil needs its particle inside the grid.
 void check_places(const Grid& grid, const Particles& particles, const std::vector<int>& index) {
-  const auto on_grid = [&](int node) { return node >= 0 && node < grid.node_count(); };
+  const int count = grid.finest().node_count();
+  const auto on_grid = [&](int node) { return node >= 0 && node < count; };
   const auto inside = [&](const Eigen::Vector3d& x) { return grid.contains(x); };
   if (!std::all_of(index.begin(), index.end(), on_grid) ||
       !std::all_of(particles.position.begin(), particles.position.end(), inside)) {

@@ -10,7 +10,7 @@ void describe_nodes(const StepView& view, Geometry& geometry) {
   const Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
   for (int i = 0; i < nodes.count(); ++i) {
     const auto slot = static_cast<std::size_t>(i);
-    const Eigen::Vector3d x = view.scene->grid.position(nodes.index[slot]);
+    const Eigen::Vector3d x = nodes.mesh.grid().position(nodes.index[slot]);
     geometry.points.row(i) << x[0], x[1], x[2];
     for (int k = 0; k < 3; ++k) geometry.frames.row(i).segment(3 * k, 3) = axes.col(k);
     geometry.volume_fraction[i] = nodes.fraction(i);

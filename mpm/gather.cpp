@@ -24,7 +24,7 @@ void gather_in(const Scene& scene, const Nodes& nodes, const std::vector<Eigen::
                const std::vector<Particles::Stress>& stress, double h, Particles& particles) {
   const Material& material = scene.material;
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = active_stencil<D>(scene.grid, nodes, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(nodes, particles.position[p]);
     Vec<D> v = Vec<D>::Zero();
     Eigen::Matrix<double, D, D> C = Eigen::Matrix<double, D, D>::Zero();
     Particles::Stress lambda = Particles::Stress::Zero();
@@ -51,11 +51,12 @@ void gather_in(const Scene& scene, const Nodes& nodes, const std::vector<Eigen::
 }
 
 template <int D>
-double crossed_in(const Grid& grid, const Nodes& nodes,
-                  const std::vector<Eigen::Vector3d>& velocity, const Particles& particles) {
+double crossed_in(const Nodes& nodes, const std::vector<Eigen::Vector3d>& velocity,
+                  const Particles& particles) {
+  const Grid& grid = nodes.mesh.grid();
   double most = 0.0;
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = active_stencil<D>(grid, nodes, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(nodes, particles.position[p]);
     Vec<D> v = Vec<D>::Zero();
     for (std::size_t k = 0; k < Stencil<D>::kNodes; ++k) {
       const int slot = nodes.slot_of[static_cast<std::size_t>(s.node[k])];
@@ -78,17 +79,16 @@ void gather(const Scene& scene, const Nodes& nodes, const std::vector<Eigen::Vec
   }
 }
 
-double cells_crossed(const Scene& scene, const Nodes& nodes,
-                     const std::vector<Eigen::Vector3d>& velocity, const Particles& particles,
-                     double h) {
-  const Grid& grid = scene.grid;
+double cells_crossed(const Nodes& nodes, const std::vector<Eigen::Vector3d>& velocity,
+                     const Particles& particles, double h) {
+  const Grid& grid = nodes.mesh.grid();
   double bound = 0.0;  // no particle is faster than the nodes around it
   for (const Eigen::Vector3d& v : velocity) {
     for (int a = 0; a < grid.dim; ++a) bound = std::max(bound, std::abs(v[a]) / grid.spacing(a));
   }
   if (h * bound <= 1.0) return h * bound;
-  return h * (grid.dim == 2 ? crossed_in<2>(grid, nodes, velocity, particles)
-                            : crossed_in<3>(grid, nodes, velocity, particles));
+  return h * (grid.dim == 2 ? crossed_in<2>(nodes, velocity, particles)
+                            : crossed_in<3>(nodes, velocity, particles));
 }
 
 }  // namespace conebench::mpm

@@ -9,6 +9,9 @@
 
 namespace conebench::mpm {
 
+/// Where a grid's cells are cut in half along each axis; mesh.h says what that means.
+enum class Refine { kNone, kBoundary };
+
 /// A regular grid of cells; velocities and stresses live at its vertices, the nodes.
 ///
 /// In two dimensions everything is per metre of thickness, the third coordinate is 0 and
@@ -18,6 +21,15 @@ struct Grid {
   Eigen::Vector3i cells = Eigen::Vector3i::Zero();
   Eigen::Vector3d low_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d size_m = Eigen::Vector3d::Zero();
+  Refine refine = Refine::kNone;  ///< kBoundary: halves where the heap ends, anew in every step
+
+  /// The grid of the smallest cells, not refined any further: this one, or that of its halves.
+  Grid finest() const {
+    Grid fine = *this;
+    fine.refine = Refine::kNone;
+    if (refine != Refine::kNone) fine.cells *= 2;
+    return fine;
+  }
 
   double spacing(int axis) const { return size_m[axis] / cells[axis]; }
   double smallest_spacing() const {
@@ -30,6 +42,25 @@ struct Grid {
     for (int a = 0; a < dim; ++a) volume *= spacing(a);
     return volume;
   }
+  int cell_count() const { return cells.cwiseMax(1).prod(); }
+  int cell(const Eigen::Vector3i& at) const {
+    return at[0] + cells[0] * (at[1] + cells[1] * at[2]);
+  }
+  Eigen::Vector3i cell_place(int cell) const {
+    const int rest = cell / cells[0];
+    return {cell % cells[0], rest % cells[1], rest / cells[1]};
+  }
+  /// Precondition: the grid contains x. A point on a face between two cells belongs to the upper
+  /// one.
+  Eigen::Vector3i cell_around(const Eigen::Vector3d& x) const {
+    Eigen::Vector3i at = Eigen::Vector3i::Zero();
+    for (int a = 0; a < dim; ++a) {
+      const double place = (x[a] - low_m[a]) * (cells[a] / size_m[a]);
+      at[a] = std::clamp(static_cast<int>(place), 0, cells[a] - 1);
+    }
+    return at;
+  }
+
   int node_count() const { return (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1); }
 
   int node(const Eigen::Vector3i& at) const {
@@ -73,7 +104,7 @@ struct Stencil {
   std::array<Vec<D>, kNodes> reach;     ///< x_node - x [m]
 };
 
-/// Precondition: the grid contains x. A point on a face between two cells belongs to the upper one.
+/// Of the cell around x; precondition: the grid contains x.
 template <int D>
 Stencil<D> stencil_at(const Grid& grid, const Eigen::Vector3d& x) {
   Eigen::Vector3i cell = Eigen::Vector3i::Zero();

@@ -1,17 +1,18 @@
 #include <algorithm>
 
 #include "mpm/nodes.h"
+#include "mpm/refine.h"
 #include "mpm/walls.h"
 
 namespace conebench::mpm {
 namespace {
 
-// Marks the vertices of cells that hold a particle and sums their solid volume, on the whole grid.
+// Sums the particles' solid volume at every node of the grid.
 template <int D>
-std::vector<double> solid_volumes(const Scene& scene, const Particles& particles) {
-  std::vector<double> solid(static_cast<std::size_t>(scene.grid.node_count()), 0.0);
+std::vector<double> solid_volumes(const Mesh& mesh, const Particles& particles) {
+  std::vector<double> solid(static_cast<std::size_t>(mesh.grid().node_count()), 0.0);
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = stencil_at<D>(scene.grid, particles.position[p]);
+    const Stencil<D> s = stencil_at<D>(mesh, particles.position[p]);
     for (std::size_t k = 0; k < Stencil<D>::kNodes; ++k) {
       solid[static_cast<std::size_t>(s.node[k])] += particles.volume[p] * s.weight[k];
     }
@@ -19,12 +20,12 @@ std::vector<double> solid_volumes(const Scene& scene, const Particles& particles
   return solid;
 }
 
-void activate(const Grid& grid, const std::vector<double>& solid, Nodes& nodes) {
+void activate(const std::vector<double>& solid, Nodes& nodes) {
   nodes.index.clear();
   nodes.slot_of.assign(solid.size(), -1);
   for (std::size_t i = 0; i < solid.size(); ++i) {
     const int node = static_cast<int>(i);
-    if (solid[i] <= Nodes::kLeastShare * grid.node_volume(node)) continue;
+    if (solid[i] <= Nodes::kLeastShare * nodes.mesh.node_volume(node)) continue;
     nodes.slot_of[i] = nodes.count();
     nodes.index.push_back(node);
   }
@@ -34,7 +35,7 @@ void activate(const Grid& grid, const std::vector<double>& solid, Nodes& nodes) 
   for (int i = 0; i < count; ++i) {
     const int node = nodes.index[static_cast<std::size_t>(i)];
     nodes.solid[i] = solid[static_cast<std::size_t>(node)];
-    nodes.volume[i] = grid.node_volume(node);
+    nodes.volume[i] = nodes.mesh.node_volume(node);
   }
   nodes.covered.setZero(count);
   nodes.cohesion.setZero(count);
@@ -42,29 +43,33 @@ void activate(const Grid& grid, const std::vector<double>& solid, Nodes& nodes) 
   const auto size = static_cast<std::size_t>(count);
   nodes.velocity.assign(size, Eigen::Vector3d::Zero());
   nodes.stress.assign(size, Particles::Stress::Zero());
-  nodes.coupling.assign(size * static_cast<std::size_t>(neighbour_count(grid.dim)),
-                        Eigen::Vector3d::Zero());
+  const int neighbours = neighbour_count(nodes.mesh.grid().dim, nodes.mesh.reach());
+  nodes.coupling.assign(size * static_cast<std::size_t>(neighbours), Eigen::Vector3d::Zero());
 }
 
-// Place of node k of a cell among the neighbours of its node i.
+// For each node of a stencil a number, such that node k is neighbour number middle + out[k] -
+// out[i] of node i.
 template <int D>
-std::size_t neighbour(std::size_t i, std::size_t k) {
-  std::size_t place = 0, stride = 1;
-  for (int a = 0; a < D; ++a, stride *= 3) place += stride * (1 + (k >> a & 1) - (i >> a & 1));
-  return place;
+std::array<int, Stencil<D>::kNodes> neighbour_numbers(const Mesh& mesh, const Stencil<D>& s) {
+  std::array<int, Stencil<D>::kNodes> out{};
+  const int side = 2 * mesh.reach() + 1;
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto bits = static_cast<int>(k);
+    const Eigen::Vector3i at = mesh.regular() ? Eigen::Vector3i(bits & 1, bits >> 1 & 1, bits >> 2)
+                                              : mesh.grid().place(s.node[k]);
+    out[k] = at[0] + side * (at[1] + side * at[2]);
+  }
+  return out;
 }
 
 // Sums over particles; `friction` holds the sum of inertial numbers meanwhile.
 template <int D>
-void sum(const Scene& scene, const Particles& particles, Nodes& nodes) {
+void sum(const Particles& particles, Nodes& nodes) {
   constexpr std::size_t kNodes = Stencil<D>::kNodes;
-  constexpr std::size_t kNeighbours = neighbour_count(D);
-  std::array<std::array<std::size_t, kNodes>, kNodes> places;
-  for (std::size_t i = 0; i < kNodes; ++i) {
-    for (std::size_t k = 0; k < kNodes; ++k) places[i][k] = neighbour<D>(i, k);
-  }
+  const int neighbours = neighbour_count(D, nodes.mesh.reach());
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = active_stencil<D>(scene.grid, nodes, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(nodes, particles.position[p]);
+    const auto number = neighbour_numbers<D>(nodes.mesh, s);
     const Vec<D> v = particles.velocity[p].template head<D>();
     const Eigen::Matrix<double, D, D> C = particles.affine[p].template topLeftCorner<D, D>();
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -76,8 +81,9 @@ void sum(const Scene& scene, const Particles& particles, Nodes& nodes) {
       nodes.stress[place] += share * particles.stress[p];
       nodes.cohesion[slot] += share * particles.cohesion[p];
       nodes.friction[slot] += share * particles.inertial_number[p];
+      const auto itself = Eigen::Index{slot} * neighbours + neighbours / 2 - number[i];
       for (std::size_t k = 0; k < kNodes; ++k) {
-        nodes.coupling[place * kNeighbours + places[i][k]].template head<D>() +=
+        nodes.coupling[static_cast<std::size_t>(itself + number[k])].template head<D>() +=
             share * s.gradient[k];
       }
     }
@@ -99,14 +105,15 @@ void divide(const Material& material, Nodes& nodes) {
 
 template <int D>
 void scatter_in(const Scene& scene, const Particles& particles, Nodes& nodes) {
-  activate(scene.grid, solid_volumes<D>(scene, particles), nodes);
-  sum<D>(scene, particles, nodes);
+  nodes.mesh = mesh_for(scene, particles);
+  activate(solid_volumes<D>(nodes.mesh, particles), nodes);
+  sum<D>(particles, nodes);
   divide(scene.material, nodes);
 }
 
 constexpr int kSamples = 4;  // of a cell, along each axis
 
-// The integral of the node's shape function over what the bodies cover.
+// The integral of the node's shape function on a regular grid over what the bodies cover.
 double covered_volume(const Grid& grid, int node, const std::vector<RigidBody>& bodies) {
   const Eigen::Vector3d x = grid.position(node);
   const Eigen::Vector3i at = grid.place(node);
@@ -134,15 +141,14 @@ double covered_volume(const Grid& grid, int node, const std::vector<RigidBody>& 
 
 // 1, or 1/2 for every closed barrier on which the node lies with sand on one side only.
 double open_share(const Scene& scene, const Nodes& nodes, int node, double time_s) {
-  const Eigen::Vector3i at = scene.grid.place(node);
   double share = 1.0;
   for (const Barrier& barrier : scene.barriers) {
     if (!holds(scene, barrier, node, time_s)) continue;
-    const Eigen::Vector3i step = Eigen::Vector3i::Unit(barrier.axis);
-    const auto sandy = [&](const Eigen::Vector3i& place) {
-      return nodes.slot_of[static_cast<std::size_t>(scene.grid.node(place))] >= 0;
+    const auto sandy = [&](int step) {
+      const int next = nodes.mesh.next(node, barrier.axis, step);
+      return nodes.slot_of[static_cast<std::size_t>(next)] >= 0;
     };
-    if (sandy(at - step) != sandy(at + step)) share *= 0.5;
+    if (sandy(-1) != sandy(1)) share *= 0.5;
   }
   return share;
 }
@@ -158,17 +164,18 @@ void scatter(const Scene& scene, const Particles& particles, Nodes& nodes) {
 }
 
 void cover(const Scene& scene, const std::vector<RigidBody>& bodies, double time_s, Nodes& nodes) {
-  const Grid& grid = scene.grid;
-  double diagonal = 0.0;
-  for (int a = 0; a < grid.dim; ++a) diagonal += grid.spacing(a) * grid.spacing(a);
+  const Grid& grid = nodes.mesh.grid();
+  double diagonal = 0.0;  // of a whole cell
+  for (int a = 0; a < grid.dim; ++a) diagonal += scene.grid.spacing(a) * scene.grid.spacing(a);
   diagonal = std::sqrt(diagonal);
+  const auto covered = [&](int node) { return covered_volume(grid, node, bodies); };
   for (int i = 0; i < nodes.count(); ++i) {
     const int node = nodes.index[static_cast<std::size_t>(i)];
     const Eigen::Vector3d x = grid.position(node);
     const bool near = std::any_of(bodies.begin(), bodies.end(), [&](const RigidBody& body) {
       return distance_to(body, grid.dim, x).value < diagonal;
     });
-    if (near) nodes.covered[i] = covered_volume(grid, node, bodies);
+    if (near) nodes.covered[i] = nodes.mesh.integral(node, covered);
     const double open = open_share(scene, nodes, node, time_s);
     nodes.covered[i] += (1.0 - open) * (nodes.volume[i] - nodes.covered[i]);
   }

@@ -23,6 +23,16 @@ std::string_view to_string(Law law) {
   return {};
 }
 
+std::string_view to_string(Refine refine) {
+  switch (refine) {
+    case Refine::kNone:
+      return "none";
+    case Refine::kBoundary:
+      return "boundary";
+  }
+  return {};
+}
+
 std::string_view to_string(Condition condition) {
   switch (condition) {
     case Condition::kStick:

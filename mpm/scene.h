@@ -15,6 +15,7 @@ namespace conebench::mpm {
 /// Which nodes cohesion acts on; cohesion_law.h says what each means.
 enum class Law { kUniform, kDenseOnly, kDilationAware, kMonotone };
 std::string_view to_string(Law law);
+std::string_view to_string(Refine refine);
 
 /// One granular material: Drucker-Prager sqrt(J2) <= friction p + cohesion, no dilatancy. Stress
 /// and cohesion are per volume of solid: the bulk carries phi times as much.

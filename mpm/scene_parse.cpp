@@ -12,6 +12,7 @@ using engine::Range;
 using engine::TomlReader;
 
 constexpr std::array kLaws = {Law::kUniform, Law::kDenseOnly, Law::kDilationAware, Law::kMonotone};
+constexpr std::array kRefines = {Refine::kNone, Refine::kBoundary};
 constexpr std::array kWallConditions = {Condition::kStick, Condition::kSlip, Condition::kFree,
                                         Condition::kFrictional};
 constexpr std::array kBarrierConditions = {Condition::kStick, Condition::kSlip};
@@ -60,12 +61,14 @@ TomlReader need_table(TomlReader& in, std::string_view key) {
 Grid read_grid(TomlReader in) {
   constexpr double kMostNodes = std::numeric_limits<int>::max();
   const auto cells = in.integers("cells", 2, 3, 1);
+  Grid grid;
+  grid.refine = read_word(in, "refine", kRefines, std::optional(grid.refine));
+  const double halves = grid.refine == Refine::kNone ? 1.0 : 2.0;
   double nodes = 1.0;
-  for (const std::int64_t count : cells) nodes *= static_cast<double>(count) + 1.0;
+  for (const std::int64_t count : cells) nodes *= halves * static_cast<double>(count) + 1.0;
   if (nodes > kMostNodes) {
     in.fail("cells", fmt::format("found {} nodes, expected at most {}", nodes, kMostNodes));
   }
-  Grid grid;
   grid.dim = static_cast<int>(cells.size());
   for (int a = 0; a < grid.dim; ++a) {
     grid.cells[a] = static_cast<int>(cells[static_cast<std::size_t>(a)]);

@@ -10,9 +10,10 @@ namespace {
 using engine::show;
 
 std::string show(const Grid& grid) {
-  return fmt::format("\n[grid]\ncells = [{}]\nsize_m = {}\nlow_m = {}\n",
+  return fmt::format("\n[grid]\ncells = [{}]\nsize_m = {}\nlow_m = {}\nrefine = \"{}\"\n",
                      fmt::join(grid.cells.data(), grid.cells.data() + grid.dim, ", "),
-                     show(grid.size_m, grid.dim), show(grid.low_m, grid.dim));
+                     show(grid.size_m, grid.dim), show(grid.low_m, grid.dim),
+                     to_string(grid.refine));
 }
 
 std::string show(const Material& material) {

@@ -30,12 +30,14 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Cells a second, along the axis where it is most, for a velocity that gravity acts on for `h`.
+// Cells a second, the smallest there can be, along the axis where it is most, for a velocity that
+// gravity acts on for `h`.
 double cells_a_second(const Scene& scene, const Eigen::Vector3d& v, double h) {
+  const Grid grid = scene.grid.finest();
   double most = 0.0;
-  for (int a = 0; a < scene.grid.dim; ++a) {
+  for (int a = 0; a < grid.dim; ++a) {
     const double speed = std::abs(v[a]) + h * std::abs(scene.gravity_m_s2[a]);
-    most = std::max(most, speed / scene.grid.spacing(a));
+    most = std::max(most, speed / grid.spacing(a));
   }
   return most;
 }
@@ -155,7 +157,7 @@ bool Simulation::try_step(double h) {
     v = solved.standard->velocity(solved.answer.r);
   }
   const std::vector<Eigen::Vector3d> velocity = node_velocities(assembly, v);
-  if (cells_crossed(scene_, nodes_, velocity, particles_, h) > 1.0) return false;
+  if (cells_crossed(nodes_, velocity, particles_, h) > 1.0) return false;
   {
     const Stopwatch watch(summary_.transfer_s);
     last_stress_ = node_stress(solved, h);

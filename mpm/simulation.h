@@ -37,8 +37,8 @@ struct State {
   Eigen::Vector3d momentum = Eigen::Vector3d::Zero();  ///< of the particles [kg m/s]
 };
 
-/// Sand as a continuum: material points on a regular grid, implicit Drucker-Prager stress, one cone
-/// problem a step.
+/// Sand as a continuum: material points on a grid (regular, or refined at the heap's boundary),
+/// implicit Drucker-Prager stress, one cone problem a step.
 ///
 ///   P2G;  v* = v + h g (and implicit viscosity);  M v = f + H^T r, (Hv + w, r) in the cones;
 ///   G2P;  x += h v(x).

@@ -15,10 +15,10 @@ constexpr int kColours = 32;
 constexpr double kLeastDot_px = 1.5;
 
 template <int D>
-std::vector<double> fractions_at(const Grid& grid, const Nodes& nodes, const Particles& particles) {
+std::vector<double> fractions_at(const Nodes& nodes, const Particles& particles) {
   std::vector<double> fractions(particles.count(), 0.0);
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = stencil_at<D>(grid, particles.position[p]);
+    const Stencil<D> s = stencil_at<D>(nodes.mesh, particles.position[p]);
     for (std::size_t k = 0; k < Stencil<D>::kNodes; ++k) {
       const int slot = nodes.slot_of[static_cast<std::size_t>(s.node[k])];
       if (slot >= 0) fractions[p] += s.weight[k] * nodes.fraction(slot);
@@ -41,7 +41,8 @@ class Drawing {
   std::string draw() const {
     const SolidsDrawing solids(scene_, camera_);
     std::string out = engine::svg_start(camera_.height_px()) + "<defs>\n" +
-                      engine::scale_gradient() + "</defs>\n" + solids.behind(frame_.bodies);
+                      engine::scale_gradient() + "</defs>\n" +
+                      solids.behind(frame_.bodies, frame_.cut);
     for (const auto& [depth, layer] : make_layers(solids)) out += draw_layer(layer);
     for (const Barrier& barrier : scene_.barriers) out += solids.barrier(barrier, frame_.time_s);
     return out + draw_caption() + "</svg>\n";
@@ -118,9 +119,10 @@ Frame make_frame(const Simulation& simulation) {
   frame.time_s = simulation.time_s();
   frame.positions = particles.position;
   for (const Eigen::Vector3d& v : particles.velocity) frame.speeds.push_back(v.norm());
-  frame.fractions = scene.grid.dim == 2 ? fractions_at<2>(scene.grid, nodes, particles)
-                                        : fractions_at<3>(scene.grid, nodes, particles);
+  frame.fractions =
+      scene.grid.dim == 2 ? fractions_at<2>(nodes, particles) : fractions_at<3>(nodes, particles);
   frame.bodies = simulation.bodies();
+  frame.cut = nodes.mesh.cut();
   return frame;
 }
 

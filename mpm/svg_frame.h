@@ -17,6 +17,7 @@ struct Frame {
   std::vector<double> speeds;              ///< [m/s]
   std::vector<double> fractions;           ///< volume fraction at the particle [-]
   std::vector<RigidBody> bodies;
+  std::vector<bool> cut;  ///< cells that are cut in half, see Mesh; empty: the grid has none
 };
 
 Frame make_frame(const Simulation& simulation);

@@ -69,8 +69,9 @@ SolidsDrawing::SolidsDrawing(const Scene& scene, const engine::Camera& camera)
       low_(scene.grid.low_m),
       high_(scene.grid.low_m + scene.grid.size_m) {}
 
-std::string SolidsDrawing::behind(const std::vector<RigidBody>& bodies) const {
-  std::string out = cell_lines();
+std::string SolidsDrawing::behind(const std::vector<RigidBody>& bodies,
+                                  const std::vector<bool>& cut) const {
+  std::string out = cell_lines(cut);
   for (const RigidBody& body : bodies) {
     if (body.body.shape != Shape::kHalfSpace) continue;
     out += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", kGrey, path(half_space(body)));
@@ -168,7 +169,7 @@ Polygon SolidsDrawing::half_space(const RigidBody& body) const {
   return patch;
 }
 
-std::string SolidsDrawing::cell_lines() const {
+std::string SolidsDrawing::cell_lines(const std::vector<bool>& cut) const {
   const Grid& grid = scene_.grid;
   if (grid.dim == 3 || camera_.scale() * grid.smallest_spacing() < kLeastCell_px) return {};
   std::string lines;
@@ -176,6 +177,13 @@ std::string SolidsDrawing::cell_lines() const {
     for (int k = 1; k < grid.cells[a]; ++k) {
       lines += path(rectangle(a, low_[a] + k * grid.spacing(a), low_, high_));
     }
+  }
+  const Eigen::Vector3d size(grid.spacing(0), grid.spacing(1), 0.0);
+  for (std::size_t cell = 0; cell < cut.size(); ++cell) {
+    if (!cut[cell]) continue;
+    const Eigen::Vector3d at = grid.cell_place(static_cast<int>(cell)).cast<double>();
+    const Eigen::Vector3d low = low_ + at.cwiseProduct(size), high = low + size;
+    for (int a = 0; a < 2; ++a) lines += path(rectangle(a, 0.5 * (low[a] + high[a]), low, high));
   }
   return fmt::format("<path stroke=\"#e0e4e7\" stroke-width=\"0.5\" d=\"{}\"/>\n", lines);
 }

@@ -17,8 +17,9 @@ class SolidsDrawing {
   /// Keeps references to both.
   SolidsDrawing(const Scene& scene, const engine::Camera& camera);
 
-  /// Cell lines where they are far enough apart (2D), walls, half spaces: behind the material.
-  std::string behind(const std::vector<RigidBody>& bodies) const;
+  /// Cell lines where cells are large enough (2D; cut ones as Mesh::cut() has them), walls, half
+  /// spaces: behind the material.
+  std::string behind(const std::vector<RigidBody>& bodies, const std::vector<bool>& cut) const;
 
   /// The faces of cells that a barrier still covers.
   std::string barrier(const Barrier& barrier, double time_s) const;
@@ -33,7 +34,7 @@ class SolidsDrawing {
   Polygon rectangle(int axis, double place, const Eigen::Vector3d& low,
                     const Eigen::Vector3d& high) const;
   Polygon half_space(const RigidBody& body) const;
-  std::string cell_lines() const;
+  std::string cell_lines(const std::vector<bool>& cut) const;
   std::string walls() const;
   std::string box(const RigidBody& body) const;
 

@@ -10,7 +10,7 @@ problems::SparseMatrix form_in(const Scene& scene, const Particles& particles, c
   constexpr std::size_t kNodes = Stencil<D>::kNodes;
   std::vector<Eigen::Triplet<double, int>> entries;
   for (std::size_t p = 0; p < particles.count(); ++p) {
-    const Stencil<D> s = active_stencil<D>(scene.grid, nodes, particles.position[p]);
+    const Stencil<D> s = active_stencil<D>(nodes, particles.position[p]);
     Eigen::Matrix<double, kEntries<D>, D*(1 << D)> strain;
     std::array<int, D * kNodes> column;
     for (std::size_t k = 0; k < kNodes; ++k) {

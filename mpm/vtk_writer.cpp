@@ -48,7 +48,7 @@ std::string nodes_file(const StepView& view) {
   const Nodes& nodes = *view.nodes;
   const NodeStress stress = stress_of(view);
   PolyData out(static_cast<int>(stress.pressure.size()));
-  out.points([&](int i) { return view.scene->grid.position(at(nodes.index)(i)); });
+  out.points([&](int i) { return nodes.mesh.grid().position(at(nodes.index)(i)); });
   out.scalars("volume_fraction", [&](int i) { return nodes.fraction(i); });
   out.integers("state", [&](int i) { return static_cast<int>(at(*view.states)(i)); });
   out.vectors("velocity_m_s", at(*view.velocity));

@@ -30,8 +30,11 @@ Eigen::Vector3d inward(int axis, bool high) {
   return (high ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
 }
 
-// Of the node's part of the face with this normal [m2].
-double face_area(const Grid& grid, const Eigen::Vector3i& at, int axis) {
+// The integral of a node's shape function on a regular grid over the face with this normal, at
+// `place` along it [m2].
+double face_area(const Grid& grid, int node, int axis, int place) {
+  const Eigen::Vector3i at = grid.place(node);
+  if (at[axis] != place) return 0.0;
   double area = 1.0;
   for (int a = 0; a < grid.dim; ++a) {
     if (a == axis) continue;
@@ -41,28 +44,30 @@ double face_area(const Grid& grid, const Eigen::Vector3i& at, int axis) {
 }
 
 void add_wall_cones(const Scene& scene, const Nodes& nodes, int slot, std::vector<Interface>& out) {
-  const Grid& grid = scene.grid;
+  const Grid& grid = nodes.mesh.grid();
   const int node = nodes.index[static_cast<std::size_t>(slot)];
   const Eigen::Vector3i at = grid.place(node);
   for (int axis = 0; axis < grid.dim; ++axis) {
     for (const bool high : {false, true}) {
       const Wall& wall = scene.wall(axis, high);
       if (wall.condition != Condition::kFrictional) continue;
-      if (at[axis] != (high ? grid.cells[axis] : 0)) continue;
+      const int end = high ? grid.cells[axis] : 0;
+      if (at[axis] != end) continue;
+      const auto area = [&](int i) { return face_area(grid, i, axis, end); };
       Interface contact;
       contact.point = grid.position(node);
       contact.frame = frame_around(inward(axis, high), grid.dim);
       contact.node = slot;
-      contact.weight = face_area(grid, at, axis) * nodes.fraction(slot);
+      contact.weight = nodes.mesh.integral(node, area) * nodes.fraction(slot);
       contact.friction = wall.friction;
       out.push_back(contact);
     }
   }
 }
 
-void add_body_cones(const Scene& scene, const Nodes& nodes, int slot,
-                    const std::vector<RigidBody>& bodies, std::vector<Interface>& out) {
-  const Grid& grid = scene.grid;
+void add_body_cones(const Nodes& nodes, int slot, const std::vector<RigidBody>& bodies,
+                    std::vector<Interface>& out) {
+  const Grid& grid = nodes.mesh.grid();
   const Eigen::Vector3d x = grid.position(nodes.index[static_cast<std::size_t>(slot)]);
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const Distance distance = distance_to(bodies[b], grid.dim, x);
@@ -127,14 +132,14 @@ bool covers(const Barrier& barrier, const Eigen::Vector3d& gravity_m_s2, int dim
 }
 
 bool holds(const Scene& scene, const Barrier& barrier, int node, double time_s) {
-  const Grid& grid = scene.grid;
+  const Grid grid = scene.grid.finest();
   const double plane = (barrier.position_m - grid.low_m[barrier.axis]) / grid.spacing(barrier.axis);
   return grid.place(node)[barrier.axis] == std::lround(plane) &&
          covers(barrier, scene.gravity_m_s2, grid.dim, grid.position(node), time_s);
 }
 
 NodeWalls walls_at(const Scene& scene, int node, double time_s) {
-  const Grid& grid = scene.grid;
+  const Grid grid = scene.grid.finest();
   const Eigen::Vector3i at = grid.place(node);
   NodeWalls walls;
   for (int axis = 0; axis < grid.dim; ++axis) {
@@ -152,7 +157,7 @@ std::vector<Interface> find_interfaces(const Scene& scene, const Nodes& nodes,
   std::vector<Interface> found;
   for (int slot = 0; slot < nodes.count(); ++slot) {
     add_wall_cones(scene, nodes, slot, found);
-    add_body_cones(scene, nodes, slot, bodies, found);
+    add_body_cones(nodes, slot, bodies, found);
   }
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (bodies[b].moves_freely()) {

@@ -13,14 +13,14 @@ struct NodeWalls {
   std::array<bool, 3> smooth{};  ///< a slip wall has this normal: no shear stress on it
 };
 
-/// Of a node of the grid at this time. An opened barrier is not there.
+/// Of a node of the finest grid at this time. An opened barrier is not there.
 NodeWalls walls_at(const Scene& scene, int node, double time_s);
 
 /// True while any part of the barrier covers `x` (a point of its plane).
 bool covers(const Barrier& barrier, const Eigen::Vector3d& gravity_m_s2, int dim,
             const Eigen::Vector3d& x, double time_s);
 
-/// True while the barrier is at this node of the grid: not opened, nor drawn away from it.
+/// True while the barrier is at this node of the finest grid: not opened, nor drawn away from it.
 /// A barrier lies strictly inside the grid, so the node has neighbours on both sides.
 bool holds(const Scene& scene, const Barrier& barrier, int node, double time_s);
 

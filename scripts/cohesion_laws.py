@@ -6,8 +6,10 @@
 Regenerates, for the scene sand-column with a disturbed start (jitter 0.5, one seed for all laws):
   OUT/corner.svg       volume fraction of the nodes at the heap's upper corner (aligned start)
   OUT/states.svg       the heaps after 0.6 s: a row a cohesion, a column a law
+                       (dense-only a second time, on a grid refined at the heap's boundary)
   OUT/curves.svg       front, height of the centre of mass and peak speed over time
-  OUT/cohesion-laws.md which columns stand on which grid; solves, cycles and energies of the laws
+  OUT/cohesion-laws.md which columns stand on which grid, and from how many starts, refined and
+                       not; solves, cycles and energies of the laws
 Runs kept in --work are not repeated. Needs matplotlib and h5py.
 """
 import argparse
@@ -15,34 +17,73 @@ import math
 import pathlib
 import subprocess
 
+import column_measures
 import common
 import scene_runs
 
-LAWS = ("uniform", "dense-only", "dilation-aware", "monotone")
+DENSE = {"material.law": "dense-only"}
+HALVES = {"grid.refine": "boundary"}
+LAWS = {"uniform": {"material.law": "uniform"}, "dense-only": DENSE,
+        "dense-only, refined": DENSE | HALVES,
+        "dilation-aware": {"material.law": "dilation-aware"},
+        "monotone": {"material.law": "monotone"}}
+SHOWN = list(LAWS)[1:]          # without the one that is for the record only
 COHESIONS = (0, 80, 400, 4000)  # Pa: strength; the tension cut-off is this over mu = 0.4
 STRENGTHS = COHESIONS[1:]       # for the table of what stands
 HEIGHT, LENGTH, GRAVITY = 0.8, 1.0, 9.81
 SECONDS = 0.6
+FULL = 0.999                    # of the largest density: below it a node is not dense
+SEEDS = range(1, 7)             # of disturbed starts; 1 is the scene's own
+# For the table of starts: what changes on the scene, and how many times finer the grid is.
+CASES = {"dense-only": (DENSE, 1), "dense-only, refined": (DENSE | HALVES, 1),
+         "dense-only, refined, 4 particles a cell":
+             (DENSE | HALVES | {"blocks[0].particles_per_cell": 4}, 1),
+         "dense-only, halves everywhere": (DENSE | {"blocks[0].particles_per_cell": 1}, 2),
+         "dilation-aware": (LAWS["dilation-aware"], 1), "monotone": (LAWS["monotone"], 1)}
 
 
-def settings(args, cells, law, cohesion, jitter=0.5):
-    return {"grid.cells": f"[{cells},{cells // 4}]", "material.law": law,
-            "material.cohesion_Pa": cohesion, "blocks[0].jitter": jitter, "duration_s": SECONDS,
-            "solver.tol": args.tol, "solver.time_limit_s": 2}
+def simulate(args, name, cells, cohesion, changes):
+    folder = args.work / name
+    settings = {"grid.cells": f"[{cells},{cells // 4}]", "material.cohesion_Pa": cohesion,
+                "blocks[0].jitter": 0.5, "duration_s": SECONDS, "solver.tol": args.tol,
+                "solver.time_limit_s": 2}
+    return scene_runs.simulate(args.program, "sand-column", folder, settings | changes), folder
 
 
 def run(args, cells, law, cohesion):
-    folder = args.work / f"{cells}-{law}-{cohesion}"
-    summary = scene_runs.simulate(args.program, "sand-column", folder,
-                                  settings(args, cells, law, cohesion))
-    return summary, folder
+    name = f"{cells}-{law.replace(', ', '-')}-{cohesion}"
+    return simulate(args, name, cells, cohesion, LAWS[law])
 
 
-def stands(summary, folder, cells):
+def stands(folder, cells):
     """Nothing moves fast, and the front is within a cell and 5 % of where it was."""
     slow = 0.05 * math.sqrt(GRAVITY * HEIGHT)
     past = scene_runs.history(folder)
     return past["fastest_m_s"][-1] < slow and past["front_m"][-1] < 1.05 * LENGTH + 4 / cells
+
+
+def verdict(folder, cells):
+    past = scene_runs.history(folder)
+    return (f"{'stands' if stands(folder, cells) else 'falls'} (front {past['front_m'][-1]:.2f} m, "
+            f"peak {past['fastest_m_s'][-1]:.2f} m/s)")
+
+
+def fallen(folder):
+    """Share of the sand that has moved by more than column_measures.FALLEN of the height."""
+    before = scene_runs.points_of(folder / "particles_000000.vtp")
+    moved = [math.dist(p, q) for p, q in zip(before, scene_runs.last_positions(folder))]
+    return sum(m > column_measures.FALLEN * HEIGHT for m in moved) / len(moved)
+
+
+def underdense_inside(folder, cells):
+    """Share of the nodes more than a whole cell inside the heap that are not dense at the start:
+    law 6 gives them no cohesion."""
+    file = folder / "nodes_000000.vtp"
+    depth = 1.001 * 4 / cells
+    inside = [phi for (x, y, _), phi in zip(scene_runs.points_of(file),
+                                            scene_runs.numbers_of(file, "volume_fraction"))
+              if x < LENGTH - depth and y < HEIGHT - depth]
+    return sum(phi < FULL for phi in inside) / len(inside)
 
 
 def draw_corner(args):
@@ -70,10 +111,10 @@ def draw_corner(args):
 def draw_states(args, cells):
     pictures = []
     for cohesion in COHESIONS:
-        for law in LAWS[1:]:
+        for law in SHOWN:
             _, folder = run(args, cells, law, cohesion)
             pictures.append((f"{law}, c = {cohesion} Pa", scene_runs.last_frame(folder)))
-    scene_runs.side_by_side(pictures, args.out / "states.svg", len(LAWS) - 1)
+    scene_runs.side_by_side(pictures, args.out / "states.svg", len(SHOWN))
 
 
 def draw_curves(args, cells):
@@ -82,13 +123,13 @@ def draw_curves(args, cells):
                                 sharey="row")
     rows = (("front_m", "front [m]"), ("centre_y_m", "height of centre of mass [m]"),
             ("fastest_m_s", "peak speed [m/s]"))
-    styles = dict(zip(LAWS, (":", "-", "--", "-.")))
+    styles = dict(zip(LAWS, (":", "-", (0, (5, 1, 1, 1, 1, 1)), "--", "-.")))
     for column, cohesion in enumerate(COHESIONS):
         axes[0, column].set_title(f"c = {cohesion} Pa, cut-off {cohesion / 0.4:.0f} Pa")
         for law in LAWS:
             past = scene_runs.history(run(args, cells, law, cohesion)[1])
             for row, (key, label) in enumerate(rows):
-                axes[row, column].plot(past["time_s"], past[key], styles[law], label=law)
+                axes[row, column].plot(past["time_s"], past[key], ls=styles[law], label=law)
                 axes[row, 0].set_ylabel(label)
         axes[2, column].set_xlabel("time [s]")
     axes[0, 0].legend()
@@ -98,17 +139,40 @@ def draw_curves(args, cells):
 def table_of_standing(args, grids):
     lines = ["| law | grid | " + " | ".join(f"c = {c} Pa" for c in STRENGTHS) + " |",
              "|---|---|" + "---|" * len(STRENGTHS)]
-    for law in LAWS[1:]:
+    for law in SHOWN:
         for cells in grids:
             row = []
             for cohesion in STRENGTHS:
-                summary, folder = run(args, cells, law, cohesion)
-                past = scene_runs.history(folder)
-                verdict = "stands" if stands(summary, folder, cells) else "falls"
-                row.append(f"{verdict} (front {past['front_m'][-1]:.2f} m, "
-                           f"peak {past['fastest_m_s'][-1]:.2f} m/s)")
+                row.append(verdict(run(args, cells, law, cohesion)[1], cells))
             lines.append(f"| {law} | {cells} x {cells // 4} | " + " | ".join(row) + " |")
     return lines
+
+
+def from_start(args, case, cells, start, setting):
+    changes, finer = CASES[case]
+    return simulate(args, f"{cells}-starts-{case.replace(', ', '-')}-{start}", finer * cells,
+                    COHESIONS[-1], changes | setting)[1]
+
+
+def row_of_starts(args, case, cells):
+    folders = [from_start(args, case, cells, seed, {"seed": seed}) for seed in SEEDS]
+    regular = from_start(args, case, cells, "regular", {"blocks[0].jitter": 0})
+    fronts = [scene_runs.history(folder)["front_m"][-1] for folder in folders]
+    peaks = [scene_runs.history(folder)["fastest_m_s"][-1] for folder in folders]
+    moved = [100 * fallen(folder) for folder in folders]
+    inside = [underdense_inside(folder, cells) for folder in folders]
+    return (f"| {case} | {cells} x {cells // 4} | "
+            f"{sum(stands(folder, cells) for folder in folders)} | "
+            f"{min(moved):.0f} to {max(moved):.0f} % | {min(fronts):.2f} to {max(fronts):.2f} | "
+            f"{min(peaks):.2f} to {max(peaks):.2f} | "
+            f"{100 * sum(inside) / len(inside):.0f} % | {verdict(regular, cells)} |")
+
+
+def table_of_starts(args, grids):
+    lines = [f"| law | grid | of {len(SEEDS)} disturbed starts stand | fallen | fronts [m] | "
+             "peak speeds [m/s] | nodes inside below full density at the start | regular start |",
+             "|---|---|---|---|---|---|---|---|"]
+    return lines + [row_of_starts(args, case, cells) for case in CASES for cells in grids]
 
 
 def table_of_laws(args, cells):
@@ -145,12 +209,19 @@ def main():
              f"`scripts/cohesion_laws.py {args.out} --grids {args.grids} --tol {args.tol:g}`, "
              f"machine: {common.machine()}, one core.", "",
              "A column 1 m x 0.8 m (mu = 0.4, 1500 kg/m3) on a rough floor, particles disturbed by "
-             "half of their room at the start, the same for all laws; 0.6 s of fall.", "",
+             "half of their room at the start, the same for all laws; 0.6 s of fall. *refined*: "
+             "half-size cells at the heap's boundary only (`grid.refine = \"boundary\"`).", "",
              "![corner](corner.svg)", "", "![states](states.svg)", "", "![curves](curves.svg)", "",
              "## Which columns stand", "",
              "*stands*: after 0.6 s no particle is faster than 0.05 sqrt(g H) and the front is within "
              "5 % and a cell of its start.", ""]
     lines += table_of_standing(args, grids)
+    lines += ["", f"## From several starts (c = {COHESIONS[-1]} Pa)", "",
+              "The grid is that of whole cells. *halves everywhere*: half-size cells throughout. "
+              "The same particles, 2 a whole cell and axis, but for the rows with 4. *fallen*: "
+              f"sand that has moved by more than {column_measures.FALLEN:g} H. *regular start*: not "
+              "disturbed, in line with the grid.", ""]
+    lines += table_of_starts(args, grids)
     lines += ["", f"## The laws at work ({cells} x {cells // 4} cells)", ""]
     lines += table_of_laws(args, cells)
     (args.out / "cohesion-laws.md").write_text("\n".join(lines) + "\n")

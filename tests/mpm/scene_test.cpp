@@ -19,6 +19,7 @@ TEST(MpmScene, ReadsWhatIsWrittenAndFillsInDefaults) {
   EXPECT_EQ(scene.grid.cells, Eigen::Vector3i(40, 20, 0));
   EXPECT_EQ(scene.grid.size_m, Eigen::Vector3d(2.0, 1.0, 0.0));
   EXPECT_EQ(scene.gravity_m_s2, Eigen::Vector3d(0.0, -9.81, 0.0));
+  EXPECT_EQ(scene.grid.refine, mpm::Refine::kNone);
   EXPECT_EQ(scene.cfl, 0.5);
   EXPECT_EQ(scene.material.law, mpm::Law::kMonotone);
   EXPECT_EQ(scene.material.phi_max, 1.0);

@@ -47,6 +47,7 @@ max_iterations = 1000
 cells = [20, 10, 10]
 size_m = [2, 1, 1]
 low_m = [-1, 0.1, 0]
+refine = "boundary"
 
 [material]
 density_kg_m3 = 1500
