@@ -1,7 +1,8 @@
-// One sweep of Gauss-Seidel in velocity form on packed spheres, beside its floor:
-// max(bytes that a sweep must move / bandwidth at that working set, time of its local solves).
+// One sweep of Gauss-Seidel in velocity form on packed spheres, or on problems from files whose
+// cones have d = 3, beside its floor: max(bytes that a sweep must move / bandwidth at that working
+// set, time of its local solves).
 //
-//   build/sweep_benchmark
+//   build/sweep_benchmark [FILE...]
 //
 // All three are measured in the same run, since machines are noisy: compare them as ratios.
 
@@ -10,6 +11,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "problems/load.h"
 #include "problems/made_backwards.h"
 #include "solvers/blocked_rows.h"
 #include "solvers/gs.h"
@@ -90,7 +92,7 @@ double read_bandwidth(std::size_t bytes) {
   return best;
 }
 
-// The sweep's own local problems at r, solved again and again: best time per contact. [s]
+// The sweep's own local problems at r, solved again and again: best time per cone. [s]
 double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
   struct Local {
     ExactLocal<3> exact;
@@ -102,8 +104,9 @@ double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
   std::vector<Local> locals(static_cast<std::size_t>(problem.cone_count()));
   for (int i = 0; i < problem.cone_count(); ++i) {
     Local& local = locals[static_cast<std::size_t>(i)];
+    const Cone& cone = problem.cones()[static_cast<std::size_t>(i)];
     const Eigen::Matrix3d W = rows.diagonal_block(i, 3);
-    local.exact.set(W, problem.mobility()(i), 0.5, 0.5);
+    local.exact.set(W, problem.mobility()(i), cone.mu, cone.theta);
     local.r = r.segment<3>(problem.start(i));
     local.q = u.segment<3>(problem.start(i)) - W * local.r;
   }
@@ -119,37 +122,59 @@ double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
   return best / problem.cone_count();
 }
 
-void sweep(benchmark::State& state) {
-  const Problem problem = sphere_lattice(static_cast<int>(state.range(0)));
+void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
   const Solver solver = make_solver("gs[form=velocity]");
   const auto sweeps = std::max<std::int64_t>(10, 2'000'000 / problem.cone_count());
   Request request;
   request.stop = {.tol = 1e-300, .max_iterations = sweeps, .test = StopTest::kOwn};
+  request.guess = guess;
   Result result;
   double best = 1e9;
   for (auto _ : state) {
     result = solver.solve(problem, request);
     best = std::min(best, result.solve_s / static_cast<double>(result.iterations));
   }
-  const double contacts = problem.cone_count();
+  const double cones = problem.cone_count();
   const auto bytes = static_cast<double>(gauss_seidel_sweep_bytes(problem));
-  const double moved = bytes / read_bandwidth(static_cast<std::size_t>(bytes)) / contacts;
+  const double moved = bytes / read_bandwidth(static_cast<std::size_t>(bytes)) / cones;
   const double local = local_solve_time(problem, result.r);
-  state.counters["contacts"] = contacts;
-  state.counters["ns_per_contact"] = 1e9 * best / contacts;
-  state.counters["bytes_per_contact"] = bytes / contacts;
+  state.counters["cones"] = cones;
+  state.counters["ns_per_cone"] = 1e9 * best / cones;
+  state.counters["bytes_per_cone"] = bytes / cones;
   state.counters["ns_bytes"] = 1e9 * moved;
   state.counters["ns_local"] = 1e9 * local;
-  state.counters["times_floor"] = best / contacts / std::max(moved, local);
+  state.counters["times_floor"] = best / cones / std::max(moved, local);
 }
 
-BENCHMARK(sweep)
-    ->RangeMultiplier(10)
-    ->Range(1000, 100000)
-    ->Unit(benchmark::kMillisecond)
-    ->Iterations(5);
+void sweep_file(benchmark::State& state, const std::string& path) {
+  const problems::ProblemFile file = problems::load_problem(path);
+  const Problem problem = file.problem.shifted();
+  for (const Cone& cone : problem.cones()) {
+    if (cone.dim != 3) return state.SkipWithError("has cones of another dimension than 3");
+  }
+  sweep(state, problem, file.guess);
+}
+
+void sweep_lattice(benchmark::State& state) {
+  sweep(state, sphere_lattice(static_cast<int>(state.range(0))), {});
+}
 
 }  // namespace
 }  // namespace conebench::solvers
 
-BENCHMARK_MAIN();
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  const auto set_up = [](benchmark::internal::Benchmark* benchmark) {
+    return benchmark->Unit(benchmark::kMillisecond)->Iterations(5);
+  };
+  for (int k = 1; k < argc; ++k) {
+    set_up(benchmark::RegisterBenchmark(argv[k], conebench::solvers::sweep_file,
+                                        std::string(argv[k])));
+  }
+  if (argc == 1) {
+    set_up(benchmark::RegisterBenchmark("sweep", conebench::solvers::sweep_lattice))
+        ->RangeMultiplier(10)
+        ->Range(1000, 100000);
+  }
+  benchmark::RunSpecifiedBenchmarks();
+}
