@@ -47,6 +47,12 @@ def finer(key, low, high, base, count):
             "skin_m": f"{0.25 * low * k:.3g}", "step_s": f"{1e-3 * math.sqrt(k):.3g}"}
 
 
+def tower(planks, levels):
+    """Planks as long as so many side by side are wide: four contacts for each pair of a level."""
+    return {"towers[0].size_m": f"[{0.0235 * planks:g},0.0234,0.0078]",
+            "towers[0].planks": planks, "towers[0].levels": levels}
+
+
 def sand(n, cells):
     return {"grid.cells": "[" + ",".join(str(max(2, round(c * n))) for c in cells) + "]"}
 
@@ -60,8 +66,7 @@ FAMILIES = {
                                       10_000: finer("columns", .004, .006, 1, 8)}),
     "planks": ("kapla-tower", 5, {10: {"towers[0].levels": 1}, 100: {"towers[0].levels": 3},
                                   1000: {"towers[0].levels": 28},
-                                  10_000: {"towers[0].levels": 60, "towers[0].planks": 6},
-                                  100_000: {"towers[0].levels": 180, "towers[0].planks": 11}}),
+                                  10_000: tower(9, 31), 100_000: tower(20, 62)}),
     "bricks": ("brick-wall-impact", 15, {
         10: {"walls[0].courses": 2, "walls[0].bricks": 1, "bodies[0].position_m[2]": 0.2},
         100: {"walls[0].courses": 4, "walls[0].bricks": 3, "bodies[0].position_m[2]": 0.3},

@@ -52,8 +52,9 @@ Sizes best_sizes(const Problem& problem, problems::ScaledRows& rows) {
 }
 
 using SphereBlock = Eigen::Matrix<double, 3, 6, Eigen::RowMajor>;
+using Frame = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
-SphereBlock sphere_block(const Eigen::Matrix3d& R, double s, double g) {
+SphereBlock sphere_block(const Frame& R, double s, double g) {
   SphereBlock block;
   block.leftCols<3>() = s * R;
   block.rightCols<3>() << Eigen::RowVector3d::Zero(), g * R.row(2), -g * R.row(1);
@@ -61,7 +62,7 @@ SphereBlock sphere_block(const Eigen::Matrix3d& R, double s, double g) {
 }
 
 // s and g of a block of spheres; nothing if it is none.
-std::optional<Eigen::Vector2d> sphere_scales(const SphereBlock& block, const Eigen::Matrix3d& R) {
+std::optional<Eigen::Vector2d> sphere_scales(const SphereBlock& block, const Frame& R) {
   const double square = R.squaredNorm();
   const double s = block.leftCols<3>().cwiseProduct(R).sum() / square;
   const double g = (block.row(1).tail<3>().dot(R.row(2)) - block.row(2).tail<3>().dot(R.row(1))) /
@@ -123,18 +124,17 @@ void BlockedRows::compress_spheres(const Problem& problem) {
   for (int i = 0; i < problem.cone_count(); ++i) {
     const std::size_t count = runs(i).size();
     if (problem.cones()[static_cast<std::size_t>(i)].dim != 3 || count > 2) return;
-    Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
-    std::vector<Eigen::Vector2d> scales;
+    const auto block = [&](std::size_t k) {
+      return Eigen::Map<const SphereBlock>(blocks(i) + 18 * k);
+    };
+    Frame R = Frame::Zero();
+    if (count > 0) R = block(0).leftCols<3>() / block(0).row(0).head<3>().norm();
+    compact.insert(compact.end(), R.data(), R.data() + R.size());
     for (std::size_t k = 0; k < count; ++k) {
-      const SphereBlock block = Eigen::Map<const SphereBlock>(blocks(i) + 18 * k);
-      if (k == 0) R = block.leftCols<3>() / block.row(0).head<3>().norm();
-      const auto found = sphere_scales(block, R);
-      if (!found) return;
-      scales.push_back(*found);
+      const auto scales = sphere_scales(block(k), R);
+      if (!scales) return;
+      compact.insert(compact.end(), {(*scales)(0), (*scales)(1)});
     }
-    for (int row = 0; row < 3; ++row)
-      compact.insert(compact.end(), {R(row, 0), R(row, 1), R(row, 2)});
-    for (const Eigen::Vector2d& pair : scales) compact.insert(compact.end(), {pair(0), pair(1)});
     begin.push_back(compact.size());
   }
   of_spheres_ = true;
@@ -146,7 +146,7 @@ Eigen::MatrixXd BlockedRows::diagonal_block(int i, int dim) const {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(dim, dim);
   const double* block = blocks(i);
   if (of_spheres_) {
-    const Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(block);
+    const Eigen::Map<const Frame> R(block);
     for (std::size_t k = 0; k < runs(i).size(); ++k) {
       const SphereBlock B = sphere_block(R, block[9 + 2 * k], block[10 + 2 * k]);
       W.noalias() += B * B.transpose();

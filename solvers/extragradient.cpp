@@ -36,8 +36,8 @@ class Extragradient final : public Iteration {
 
   State advance() override {
     const double ratio = predict();
-    const bool optimal = optimal_step_ && !too_small_to_measure();
-    const double length = tau_ * (optimal ? optimal_step() : 1.0);
+    const bool measured = !too_small_to_measure();  // else ratio is rounding
+    const double length = tau_ * (optimal_step_ && measured ? optimal_step() : 1.0);
     next_ = r_ - length * F_p_.cwiseQuotient(mobility_);
     project_on_cones(problem_, next_);
     if (!next_.allFinite()) return State::kDiverged;
@@ -46,7 +46,7 @@ class Extragradient final : public Iteration {
     const double moved = std::max(predicted, size_as_rate(problem_, back_));
     r_.swap(next_);
     evaluate(r_, F_);
-    if (ratio < kShort) tau_ = std::min(kGrowth * tau_, kLongest);
+    if (ratio < kShort && measured) tau_ = std::min(kGrowth * tau_, kLongest);
     return moved <= kNoProgress * size_as_rate(problem_, r_) ? State::kStalled : State::kRunning;
   }
 
