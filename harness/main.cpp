@@ -15,7 +15,8 @@ struct Variable {
 
 // BLAS: one thread, whatever the user's shell says: timed runs must not depend on it. OpenMP: at a
 // barrier a thread spins for some 10 us, then sleeps; libgomp's own choice, some ms, costs
-// `gs-parallel` ten times the time of a sweep where another process wants the core too.
+// `gs-parallel` ten times the time of a sweep where another process wants the core too. Solvers
+// that run as programs of their own inherit all of this.
 constexpr Variable kThreadVariables[] = {{"OMP_NUM_THREADS", "1"},
                                          {"OPENBLAS_NUM_THREADS", "1"},
                                          {"MKL_NUM_THREADS", "1"},

@@ -17,14 +17,14 @@ namespace conebench::solvers {
 /// Nesterov's sequence, which starts anew (beta = 0) when the way gone, r+ - r, has an obtuse angle
 /// with the step, r+ - y. u(y) follows from u at the last two r, so that a trial costs one product.
 ///
-/// Where M is block diagonal, cones that have no reaction, and would have none after a step, are
-/// left out, all products of theirs included, if they are a quarter of all: for an eighth of the
-/// iterations so far, 10 at least, `skip` at most. Then all are looked at again; a cone that wakes
-/// has its rate at r for that at y in its first step.
+/// Where M is block diagonal or W is given, cones that have no reaction, and would have none after
+/// a step, are left out, all products of theirs included, if they are a quarter of all: for an
+/// eighth of the iterations so far, 10 at least, `skip` at most. Then all are looked at again; a
+/// cone that wakes has its rate at r for that at y in its first step.
 ///
 /// Cost    one product with W an iteration, and one for each time that L doubles (1 in 35 at rest);
 ///         of the cones that are awake.
-/// Memory  that of BlockedRows, and 13 numbers a row.
+/// Memory  that of DelassusProduct, and 9 numbers a row.
 /// Own test (StopTest::kOwn)  eta from its own r and u, of the cones that are awake.
 /// No convergence proof with refresh; for theta = 0 a convex problem, |f - f*| = O(1/k^2).
 /// Source  Mazhar, Heyn, Negrut, Tasora, ACM Trans. Graph. 34(3) (2015), Algorithm 1, which solves

@@ -14,8 +14,8 @@ namespace conebench::solvers {
 /// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
 ///           takes the same turns in every run.
 /// Turn      lasts until the lane has done half as much work again as before it (at least one
-///           iteration; the first one of apgd 100, of gs 30). Then eta of its iterate is computed,
-///           inside the clock.
+///           iteration; the first one of apgd 100, of gs 30, of admm 10). Then eta of its iterate
+///           is computed, inside the clock.
 /// Promise   a lane whose last turn of work t took ln(eta) down by g finishes within about
 ///           t ln(eta / tol) / g. One whose turn brought nothing promises twice what its whole
 ///           record promises by the same rule, 1 to 4 times the work done, so that lanes without

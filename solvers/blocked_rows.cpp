@@ -174,7 +174,8 @@ std::size_t BlockedRows::bytes() const {
 }
 
 BlockedDelassus::BlockedDelassus(const Problem& problem) {
-  const SparseMatrix W = problem.delassus();
+  const SparseMatrix assembled = problem.is_primal() ? problem.delassus() : SparseMatrix();
+  const SparseMatrix& W = problem.is_primal() ? assembled : problem.W();
   std::vector<int> cone_of_row(static_cast<std::size_t>(problem.rows()));
   for (int i = 0; i < problem.cone_count(); ++i) {
     std::fill_n(cone_of_row.begin() + problem.start(i),

@@ -57,7 +57,7 @@ class BlockedRows {
   Eigen::VectorXd scaled_velocity(const problems::Problem& problem, const Eigen::VectorXd& r) const;
 
   /// Numbers in all blocks.
-  double entries() const { return static_cast<double>(values_.size()); }
+  double numbers() const { return static_cast<double>(values_.size()); }
   /// Bytes of the blocks and their indices.
   std::size_t bytes() const;
 
@@ -126,47 +126,46 @@ struct RunProducts {
   }
 };
 
-/// The same where rows.of_spheres(). Vectors of other than 3 entries, which no cone there has, do
-/// nothing: whoever is generic in the dimension compiles.
+/// The same where rows.of_spheres(). Vectors have 3 entries; those that cannot have them do
+/// nothing, so that whoever is generic in the dimension compiles.
 struct SphereProducts {
   template <class Vector>
+  static constexpr bool kMayHaveThree =
+      Vector::RowsAtCompileTime == 3 || Vector::RowsAtCompileTime == Eigen::Dynamic;
+
+  template <class Vector>
   static void add_rate(const BlockedRows& rows, int i, const double* y, Vector& u) {
-    if constexpr (Vector::RowsAtCompileTime == 3) add_rate_of_3(rows, i, y, u);
+    if constexpr (kMayHaveThree<Vector>) {
+      const double *R = rows.blocks(i), *scales = R + 9;
+      double v[3] = {}, omega[3] = {};
+      for (const int run : rows.runs(i)) {
+        for (int k = 0; k < 3; ++k) v[k] += scales[0] * y[run + k];
+        for (int k = 0; k < 3; ++k) omega[k] += scales[1] * y[run + 3 + k];
+        scales += 2;
+      }
+      auto along = [R](int row, const double* x) {
+        return R[3 * row] * x[0] + R[3 * row + 1] * x[1] + R[3 * row + 2] * x[2];
+      };
+      u(0) += along(0, v);
+      u(1) += along(1, v) + along(2, omega);
+      u(2) += along(2, v) - along(1, omega);
+    }
   }
+
   template <class Vector>
   static void add_reaction(const BlockedRows& rows, int i, const Vector& x, double* y) {
-    if constexpr (Vector::RowsAtCompileTime == 3) add_reaction_of_3(rows, i, x, y);
-  }
-
- private:
-  static void add_rate_of_3(const BlockedRows& rows, int i, const double* y, Eigen::Vector3d& u) {
-    const double *R = rows.blocks(i), *scales = R + 9;
-    double v[3] = {}, omega[3] = {};
-    for (const int run : rows.runs(i)) {
-      for (int k = 0; k < 3; ++k) v[k] += scales[0] * y[run + k];
-      for (int k = 0; k < 3; ++k) omega[k] += scales[1] * y[run + 3 + k];
-      scales += 2;
-    }
-    auto along = [R](int row, const double* x) {
-      return R[3 * row] * x[0] + R[3 * row + 1] * x[1] + R[3 * row + 2] * x[2];
-    };
-    u(0) += along(0, v);
-    u(1) += along(1, v) + along(2, omega);
-    u(2) += along(2, v) - along(1, omega);
-  }
-
-  static void add_reaction_of_3(const BlockedRows& rows, int i, const Eigen::Vector3d& x,
-                                double* y) {
-    const double *R = rows.blocks(i), *scales = R + 9;
-    double force[3], torque[3];
-    for (int k = 0; k < 3; ++k) {
-      force[k] = R[k] * x(0) + R[3 + k] * x(1) + R[6 + k] * x(2);
-      torque[k] = R[6 + k] * x(1) - R[3 + k] * x(2);
-    }
-    for (const int run : rows.runs(i)) {
-      for (int k = 0; k < 3; ++k) y[run + k] += scales[0] * force[k];
-      for (int k = 0; k < 3; ++k) y[run + 3 + k] += scales[1] * torque[k];
-      scales += 2;
+    if constexpr (kMayHaveThree<Vector>) {
+      const double *R = rows.blocks(i), *scales = R + 9;
+      double force[3], torque[3];
+      for (int k = 0; k < 3; ++k) {
+        force[k] = R[k] * x(0) + R[3 + k] * x(1) + R[6 + k] * x(2);
+        torque[k] = R[6 + k] * x(1) - R[3 + k] * x(2);
+      }
+      for (const int run : rows.runs(i)) {
+        for (int k = 0; k < 3; ++k) y[run + k] += scales[0] * force[k];
+        for (int k = 0; k < 3; ++k) y[run + 3 + k] += scales[1] * torque[k];
+        scales += 2;
+      }
     }
   }
 };

@@ -32,44 +32,53 @@ class ColourSet {
   std::vector<std::uint64_t> words_;
 };
 
-// At least so many stretches of a colour to share out, were there 8 colours.
-constexpr std::size_t kLeastStretches = 256;
+// At least so many stretches in all, to begin with.
+constexpr std::size_t kFirstStretches = 256;
+
+struct Arrangement {
+  std::vector<Colouring::Colour> parallel;
+  std::vector<int> left;
+};
+
+Arrangement arranged(const std::vector<int>& cones, std::size_t length,
+                     const std::vector<int>& colour) {
+  std::vector<Colouring::Colour> all(static_cast<std::size_t>(*std::ranges::max_element(colour)) +
+                                     1);
+  for (std::size_t s = 0; s < colour.size(); ++s) {
+    Colouring::Colour& mine = all[static_cast<std::size_t>(colour[s])];
+    const auto first = cones.begin() + static_cast<std::ptrdiff_t>(s * length);
+    const auto count = std::min(length, cones.size() - s * length);
+    mine.cones.insert(mine.cones.end(), first, first + static_cast<std::ptrdiff_t>(count));
+    mine.begin.push_back(static_cast<int>(mine.cones.size()));
+  }
+  Arrangement out;
+  for (Colouring::Colour& mine : all) {
+    if (mine.cones.size() >= Colouring::kLeastParallel &&
+        mine.stretches() >= Colouring::kLeastStretches) {
+      out.parallel.push_back(std::move(mine));
+    } else {
+      out.left.insert(out.left.end(), mine.cones.begin(), mine.cones.end());
+    }
+  }
+  return out;
+}
 
 }  // namespace
 
 template <class Colours>
 void Colouring::cut(const std::vector<int>& regular, const Colours& colours) {
   if (regular.empty()) return;
-  const std::vector<int> hubs = serial_;
   std::size_t length =
-      std::clamp(regular.size() / kLeastStretches, std::size_t{1}, std::size_t{kLongest});
-  while (true) {
-    arrange(regular, length, colours(length));
-    const auto left = static_cast<double>(serial_.size() - hubs.size());
-    if (length == 1 || left <= kMostSerial * static_cast<double>(regular.size())) return;
+      std::clamp(regular.size() / kFirstStretches, std::size_t{1}, std::size_t{kLongest});
+  Arrangement best = arranged(regular, length, colours(length));
+  const auto enough = kMostSerial * static_cast<double>(regular.size());
+  while (length > 1 && static_cast<double>(best.left.size()) > enough) {
     length /= 2;
-    parallel_.clear();
-    serial_ = hubs;
+    Arrangement next = arranged(regular, length, colours(length));
+    if (next.left.size() < best.left.size()) best = std::move(next);
   }
-}
-
-void Colouring::arrange(const std::vector<int>& regular, std::size_t length,
-                        const std::vector<int>& colour) {
-  std::vector<Colour> all(static_cast<std::size_t>(*std::ranges::max_element(colour)) + 1);
-  for (std::size_t s = 0; s < colour.size(); ++s) {
-    Colour& mine = all[static_cast<std::size_t>(colour[s])];
-    const auto first = regular.begin() + static_cast<std::ptrdiff_t>(s * length);
-    const auto count = std::min(length, regular.size() - s * length);
-    mine.cones.insert(mine.cones.end(), first, first + static_cast<std::ptrdiff_t>(count));
-    mine.begin.push_back(static_cast<int>(mine.cones.size()));
-  }
-  for (Colour& mine : all) {
-    if (mine.cones.size() >= kLeastParallel) {
-      parallel_.push_back(std::move(mine));
-    } else {
-      serial_.insert(serial_.end(), mine.cones.begin(), mine.cones.end());
-    }
-  }
+  parallel_ = std::move(best.parallel);
+  serial_.insert(serial_.end(), best.left.begin(), best.left.end());
 }
 
 Colouring::Colouring(const problems::Problem& problem, const DelassusCoupling& coupling) {
@@ -85,19 +94,28 @@ Colouring::Colouring(const problems::Problem& problem, const DelassusCoupling& c
   }
   cut(regular, [&](std::size_t length) {
     std::vector<int> colour;
-    ColourSet taken;
-    for (std::size_t k = 0; k < regular.size(); ++k) {
-      if (k % length == 0) taken.clear();
-      for (const BlockedDelassus::Entry& entry : coupling.blocks().entries(regular[k])) {
-        const int other = cone_of_row[static_cast<std::size_t>(entry.row)];
-        const int at = place[static_cast<std::size_t>(other)];
-        if (at < 0) continue;
-        const std::size_t stretch = static_cast<std::size_t>(at) / length;
-        if (stretch < colour.size()) taken.insert(colour[stretch]);
-      }
-      if (k % length == length - 1 || k + 1 == regular.size()) {
-        colour.push_back(taken.first_missing());
-      }
+    std::vector<ColourSet> taken((regular.size() + length - 1) / length);  // of each stretch
+    for (std::size_t k = 0; k < regular.size(); k += length) {
+      const auto stretch = std::span(regular).subspan(k, std::min(length, regular.size() - k));
+      // function(stretch) of each stretch that W couples this one to.
+      const auto for_coupled = [&](const auto& function) {
+        for (const int i : stretch) {
+          for (const BlockedDelassus::Entry& entry : coupling.blocks().entries(i)) {
+            const int other = cone_of_row[static_cast<std::size_t>(entry.row)];
+            const int at = place[static_cast<std::size_t>(other)];
+            if (at >= 0) function(static_cast<std::size_t>(at) / length);
+          }
+        }
+      };
+      ColourSet& mine = taken[k / length];
+      for_coupled([&](std::size_t s) {
+        if (s < colour.size()) mine.insert(colour[s]);
+      });
+      colour.push_back(mine.first_missing());
+      // W may hold a block on one side of its diagonal only.
+      for_coupled([&](std::size_t s) {
+        if (s >= colour.size()) taken[s].insert(colour.back());
+      });
     }
     return colour;
   });

@@ -15,14 +15,16 @@ namespace conebench::solvers {
 /// Stretches are of neighbours in the order of the problem, so that a thread reads memory almost as
 /// a sweep in that order does; the problem's order is that of its bodies in every engine, but may
 /// be any. Stretches start long and are halved until at most kMostSerial of the cones are left over
-/// below. Colours are given greedily, each the first that is free. What is not worth waking a
-/// thread for comes last, to be solved in sequence: the cones of a hub, a body or node felt by more
-/// than kHub of them, and colours of fewer than kLeastParallel cones.
+/// below; the length that leaves least is taken. Colours are given greedily, each the first that is
+/// free. What is not worth waking a thread for comes last, to be solved in sequence: the cones of a
+/// hub, a body or node felt by more than kHub of them (with W, cones that it couples to more than
+/// that), and colours of fewer than kLeastParallel cones or kLeastStretches stretches.
 class Colouring {
  public:
   static constexpr int kLongest = 256;  ///< cones of a stretch
   static constexpr int kHub = 64;
   static constexpr int kLeastParallel = 64;
+  static constexpr int kLeastStretches = 8;
   static constexpr double kMostSerial = 0.05;
 
   /// The stretches of one colour, one after another: cones[begin[s]] to cones[begin[s + 1]].
@@ -43,7 +45,7 @@ class Colouring {
   Colouring(const problems::Problem& problem, const VelocityCoupling<Products>& coupling) {
     colour_by_runs(problem.cone_count(), coupling.rows());
   }
-  /// Two cones clash where W couples them. Cost: linear in the blocks of W.
+  /// Two cones clash where W couples one to the other. Cost: likewise, in the blocks of W.
   Colouring(const problems::Problem& problem, const DelassusCoupling& coupling);
 
   std::span<const Colour> parallel() const { return parallel_; }
@@ -55,7 +57,6 @@ class Colouring {
   // colours(length) gives each stretch of so many `regular` cones its colour.
   template <class Colours>
   void cut(const std::vector<int>& regular, const Colours& colours);
-  void arrange(const std::vector<int>& regular, std::size_t length, const std::vector<int>& colour);
 
   std::vector<Colour> parallel_;
   std::vector<int> serial_;

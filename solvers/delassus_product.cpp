@@ -9,7 +9,7 @@ namespace {
 
 using problems::Problem;
 
-constexpr double kSecondsPerBlockEntry = 3.5e-10;  // both ways
+constexpr double kSecondsPerBlockEntry = 3.5e-10;  // of B both ways, of W once
 constexpr double kSecondsPerNonzero = 1e-9;
 
 // function(cone, first row of its part, dim).
@@ -103,7 +103,7 @@ void DelassusProduct::apply(std::span<const int> from, const Eigen::VectorXd& r,
 }
 
 double DelassusProduct::work_s() const {
-  if (rows_) return kSecondsPerBlockEntry * rows_->entries();
+  if (rows_) return kSecondsPerBlockEntry * rows_->numbers();
   if (W_) return kSecondsPerBlockEntry * W_->numbers();
   return kSecondsPerNonzero * static_cast<double>(problem_.H().nonZeros());
 }

@@ -44,9 +44,9 @@ struct GaussSeidelSettings {
 ///         of the largest; since components do not feel each other, nothing is lost meanwhile
 ///         (solvers/gs_schedule.h). Only a full sweep can find that nothing moves any more.
 /// Own estimate of eta  a tenth of max_i lambda_i |dr_i| / U over the latest change of each cone.
-/// Memory  d = 3, two rigid bodies: 288 bytes of blocks and about 270 of local data a cone.
-/// No convergence proof for Coulomb friction; the residual judges.
-/// Source  Jourdan, Alart, Jean, CMAME 155 (1998) 31-47 (not checked); local step: our derivation.
+/// Memory  d = 3, two rigid bodies: 288 bytes of blocks, 112 between spheres, and about 270 of
+/// local data a cone. No convergence proof for Coulomb friction; the residual judges. Source
+/// Jourdan, Alart, Jean, CMAME 155 (1998) 31-47 (not checked); local step: our derivation.
 Method gauss_seidel();
 
 /// Why these settings cannot take the problem, or nothing.

@@ -11,8 +11,7 @@ namespace conebench::solvers {
 /// of `gs`, since the order of the cones is another one.
 ///
 /// Threads  `threads`, or with 0 those of the run (`--threads`), one unless it says otherwise.
-/// Cost     a sweep of gs over the threads, one barrier a colour; once, the colours: a pass or a
-/// few
+/// Cost     a sweep of gs over the threads, one barrier a colour; once, the colours: some passes
 ///          over the blocks. Cones of a body with more than 64, and small colours, are solved by
 ///          one thread.
 /// Source   colouring for parallel projected Gauss-Seidel is folklore; ours is first fit.

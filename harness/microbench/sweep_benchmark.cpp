@@ -124,7 +124,7 @@ double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
 
 void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
   const Solver solver = make_solver("gs[form=velocity]");
-  const auto sweeps = std::max<std::int64_t>(10, 2'000'000 / problem.cone_count());
+  const auto sweeps = std::max<std::int64_t>(10, 2'000'000 / std::max(1, problem.cone_count()));
   Request request;
   request.stop = {.tol = 1e-300, .max_iterations = sweeps, .test = StopTest::kOwn};
   request.guess = guess;

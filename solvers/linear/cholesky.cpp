@@ -91,9 +91,13 @@ Cholesky::Cholesky() : factor_(std::make_unique<Factor>()) {}
 Cholesky::~Cholesky() = default;
 Cholesky::Cholesky(Cholesky&&) noexcept = default;
 
-void Cholesky::analyse(const Matrix& matrix) { factor_->analyse(matrix); }
+// CHOLMOD has no factor of an empty matrix.
+void Cholesky::analyse(const Matrix& matrix) {
+  if (matrix.rows() > 0) factor_->analyse(matrix);
+}
 
 bool Cholesky::factorize(const Matrix& matrix) {
+  if (matrix.rows() == 0) return true;
   factor_->factorize(matrix);
   return factor_->info() == Eigen::Success;
 }
@@ -102,6 +106,8 @@ double Cholesky::work_s() const {
   return kSecondsPerFlop * factor_->flops() + kSecondsPerNonzero * factor_->nonzeros();
 }
 
-Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const { return factor_->solve(b); }
+Eigen::VectorXd Cholesky::solve(const Eigen::VectorXd& b) const {
+  return b.size() > 0 ? factor_->solve(b) : b;
+}
 
 }  // namespace conebench::solvers

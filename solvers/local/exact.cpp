@@ -245,7 +245,7 @@ template <int D>
 LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) const {
   const Eigen::Index tangents = q.size() - 1;
   const double qn = q(0);
-  // No root where none is needed: the case found is what the processor waits for.
+  // No square root where theta = mu needs none: all that follows waits for this branch.
   if (theta_ == mu_ ? qn >= 0.0
                     : qn >= (mu_ - theta_) * q.template segment<kTangents>(1, tangents).norm() -
                                 kOpenGap * q.norm()) {

@@ -91,27 +91,33 @@ TEST(BlockedRows, OfSpheresAreAThird) {
   const Problem problem = spheres(30, {});
   const BlockedRows rows(problem);
   EXPECT_TRUE(rows.of_spheres());
-  EXPECT_EQ(rows.entries(), 30 * 9 + 2 * (30 + 20));
+  EXPECT_EQ(rows.numbers(), 30 * 9 + 2 * (30 + 20));
   expect_right_products(problem);
 }
 
-// A reaction moved in Gauss-Seidel changes every rate by W's column.
-TEST(BlockedRows, OfSpheresFeelWhatMoves) {
+// A reaction moved in Gauss-Seidel changes every rate by W's column, in vectors of either kind.
+template <class Vector>
+void expect_felt() {
   const Problem problem = spheres(30, {});
   Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.rows(), -1.0, 2.0);
   with_coupling(problem, true, [&](auto coupling) {
     coupling.refresh(r);
-    const Eigen::Vector3d change(0.3, -0.2, 0.5);
+    const Vector change = Eigen::Vector3d(0.3, -0.2, 0.5);
     coupling.moved(11, change);
     r.segment<3>(problem.start(11)) += change;
     const Eigen::VectorXd expected = problem.rate(r);
     for (int i = 0; i < problem.cone_count(); ++i) {
-      Eigen::Vector3d u;
+      Vector u(3);
       coupling.rate(i, problem.start(i), u);
       EXPECT_LE((u - expected.segment<3>(problem.start(i))).norm(), 1e-14 * expected.norm()) << i;
     }
     return 0;
   });
+}
+
+TEST(BlockedRows, OfSpheresFeelWhatMoves) {
+  expect_felt<Eigen::Vector3d>();
+  expect_felt<Eigen::VectorXd>();
 }
 
 TEST(BlockedRows, TakeNothingElseForSpheres) {

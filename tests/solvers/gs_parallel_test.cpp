@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <numeric>
+#include <random>
 #include <set>
 
 #include "problems/made_backwards.h"
@@ -24,6 +27,7 @@ void expect_partition(const Colouring& colouring, int cones) {
   std::size_t count = colouring.serial().size();
   for (const Colouring::Colour& colour : colouring.parallel()) {
     EXPECT_GE(static_cast<int>(colour.cones.size()), Colouring::kLeastParallel);
+    EXPECT_GE(colour.stretches(), Colouring::kLeastStretches);
     EXPECT_TRUE(std::ranges::is_sorted(colour.cones));
     std::size_t in_stretches = 0;
     for (int s = 0; s < colour.stretches(); ++s) {
@@ -53,10 +57,12 @@ void expect_apart(const Colouring& colouring, const Problem& problem) {
       for (const int i : colour.stretch(s)) stretch_of[i] = s;
     }
     for (const auto& [i, s] : stretch_of) {
-      for (problems::SparseMatrix::InnerIterator it(W, problem.start(i)); it; ++it) {
-        const auto other = stretch_of.find(cone_of_row[static_cast<std::size_t>(it.col())]);
-        EXPECT_TRUE(other == stretch_of.end() || other->second == s)
-            << i << " and " << other->first;
+      for (int k = 0; k < problem.cones()[static_cast<std::size_t>(i)].dim; ++k) {
+        for (problems::SparseMatrix::InnerIterator it(W, problem.start(i) + k); it; ++it) {
+          const auto other = stretch_of.find(cone_of_row[static_cast<std::size_t>(it.col())]);
+          EXPECT_TRUE(other == stretch_of.end() || other->second == s)
+              << i << " and " << other->first;
+        }
       }
     }
   }
@@ -72,15 +78,21 @@ int longest_stretch(const Colouring& colouring) {
   return longest;
 }
 
-// A chain of bodies of 3 dofs, each held to the next by one cone; with `hub`, every fifth cone
-// holds its first body to the first of all instead.
-Problem chain(int cones, bool hub) {
+enum class Order { kAlong, kShuffled };
+
+// A chain of bodies of 3 dofs, each held to the next by one cone, the cones in their order or in
+// none; with `hub`, every fifth cone holds its first body to the first of all instead.
+Problem chain(int cones, bool hub, Order order = Order::kAlong) {
+  std::vector<int> place(static_cast<std::size_t>(cones));
+  std::iota(place.begin(), place.end(), 0);
+  if (order == Order::kShuffled) std::shuffle(place.begin(), place.end(), std::mt19937(3));
   std::vector<Eigen::Triplet<double, int>> H;
   for (int i = 0; i < cones; ++i) {
     const int other = hub && i % 5 == 0 ? 0 : i + 1;
+    const int row = 3 * place[static_cast<std::size_t>(i)];
     for (int k = 0; k < 3; ++k) {
-      H.emplace_back(3 * i + k, 3 * (i == 0 ? 1 : i) + k, 1.0);
-      H.emplace_back(3 * i + k, 3 * other + k, -1.0);
+      H.emplace_back(row + k, 3 * (i == 0 ? 1 : i) + k, 1.0);
+      H.emplace_back(row + k, 3 * other + k, -1.0);
     }
   }
   const int dofs = 3 * (cones + 1);
@@ -123,6 +135,34 @@ TEST(Colouring, KeepsStretchesOfAChainLong) {
   EXPECT_EQ(colouring.parallel().size(), 2u);
   EXPECT_TRUE(colouring.serial().empty());
   EXPECT_GE(longest_stretch(colouring), 100);
+}
+
+// Without any order long stretches touch everything: they must give way to short ones.
+TEST(Colouring, FindsThreadsWorkInAnyOrder) {
+  const Problem problem = chain(40000, false, Order::kShuffled);
+  const Colouring colouring(problem,
+                            VelocityCoupling<RunProducts<3>>(problem, BlockedRows(problem)));
+  expect_partition(colouring, problem.cone_count());
+  EXPECT_LE(colouring.serial().size(), 2000u);
+}
+
+// W of which only the upper triangle is stored: a cone reads what another, earlier one writes.
+TEST(Colouring, HeedsBlocksOnOneSideOfTheDiagonal) {
+  const int cones = 4096;
+  problems::SparseMatrix W(cones, cones);
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (int i = 0; i < cones; ++i) {
+    entries.emplace_back(i, i, 1.0);
+    if (i + 1 < cones) entries.emplace_back(i, i + 1, 0.03);
+  }
+  W.setFromTriplets(entries.begin(), entries.end());
+  const Problem problem(
+      problems::ReducedData{W, Eigen::VectorXd::Constant(cones, -1.0)},
+      std::vector<problems::Cone>(static_cast<std::size_t>(cones), problems::Cone::coulomb(1, 0.0)),
+      {});
+  const Colouring colouring(problem, DelassusCoupling(problem));
+  expect_partition(colouring, cones);
+  expect_apart(colouring, problem);
 }
 
 // The cones of a hub come last and leave all others in their stretches.

@@ -47,6 +47,14 @@ TEST(Gmres, KeepsToItsLimitsAndTakesTheEasyCasesAtOnce) {
 }
 
 // Only the lower triangle counts, whatever stands above it, in any order of the unknowns.
+TEST(Cholesky, OfNothingSolvesNothing) {
+  Cholesky cholesky;
+  const Cholesky::Matrix empty(0, 0);
+  cholesky.analyse(empty);
+  EXPECT_TRUE(cholesky.factorize(empty));
+  EXPECT_EQ(cholesky.solve(Eigen::VectorXd()).size(), 0);
+}
+
 TEST(Cholesky, ReadsTheLowerTriangleOnly) {
   constexpr int kSize = 30;
   const Eigen::MatrixXd B = random_matrix(kSize, 5);
