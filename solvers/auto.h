@@ -25,8 +25,8 @@ namespace conebench::solvers {
 ///           number of sweeps of gs, larger for the last three where H has more rows than columns,
 ///           so that W is singular. The lane that promises least begins: apgd. Where rows of H have
 ///           more than 12 entries on average, so that cones are nodes of a grid, prox-newton is
-///           next, and all the others long after it; but for tol >= 1e-4 gs comes before it, from
-///           the guess, and for smaller ones prox-newton begins in the plane (up to 24 entries).
+///           next, and all the others long after it, Gauss-Seidel later still in the plane (up to
+///           24 entries); but for tol >= 1e-4 gs comes before it, from the guess.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
