@@ -37,8 +37,8 @@ namespace conebench::solvers {
 /// Newton with a proximal term finishes in some steps, on sphere packings the other way round, and
 /// nothing in the data tells them apart beforehand; progress does. apgd is the quickest of our
 /// methods on most problems of both engines, so that it begins; where it is not, Newton on grids,
-/// and at loose tolerances the sweeps, are. Aims at a small multiple of the best lane's time (1.4
-/// in geometric mean on 147 problems, 14 at worst); there is no proof. Own test (StopTest::kOwn)
+/// and at loose tolerances the sweeps, are. Aims at a small multiple of the best lane's time (1.3
+/// in geometric mean on 147 problems, 12 at worst); there is no proof. Own test (StopTest::kOwn)
 /// that of the lane, verified with eta.
 Method automatic();
 
