@@ -14,19 +14,20 @@ namespace conebench::solvers {
 /// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
 ///           takes the same turns in every run.
 /// Turn      lasts until the lane has done half as much work again as before it (at least one
-///           iteration; the first one of apgd 100, of gs 30, of admm 10). Then eta of its iterate
-///           is computed, inside the clock.
+///           iteration; the first one of apgd 100, on plane grids 50, of gs 30, of admm 10). Then
+///           eta of its iterate is computed, inside the clock.
 /// Promise   a lane whose last turn of work t took ln(eta) down by g finishes within about
 ///           t ln(eta / tol) / g. One whose turn brought nothing promises twice what its whole
 ///           record promises by the same rule, 1 to 4 times the work done, so that lanes without
 ///           progress stay within a constant factor of each other. Before it has done the steps it
-///           usually needs (apgd 1000, on grids 300; admm 300, prox-newton 80, newton-ac 60, ipm
-///           30, aclm 60), a lane promises at most the work of the rest; before its first turn, a
-///           number of sweeps of gs, larger for the last three where H has more rows than columns,
-///           so that W is singular. The lane that promises least begins: apgd. Where rows of H have
-///           more than 12 entries on average, so that cones are nodes of a grid, prox-newton is
-///           next, and all the others long after it, Gauss-Seidel later still in the plane (up to
-///           24 entries); but for tol >= 1e-4 gs comes before it, from the guess.
+///           usually needs (apgd 1000, on grids 300, in the plane 50; admm 300, prox-newton 80,
+///           newton-ac 60, ipm 30, aclm 60), a lane promises at most the work of the rest; before
+///           its first turn, a number of sweeps of gs, larger for the last three where H has more
+///           rows than columns, so that W is singular. The lane that promises least begins: apgd.
+///           Where rows of H have more than 12 entries on average, so that cones are nodes of a
+///           grid, prox-newton is next, and all the others long after it, Gauss-Seidel later still
+///           in the plane (up to 24 entries); but for tol >= 1e-4 gs comes before it, from the
+///           guess.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
@@ -38,7 +39,7 @@ namespace conebench::solvers {
 /// nothing in the data tells them apart beforehand; progress does. apgd is the quickest of our
 /// methods on most problems of both engines, so that it begins; where it is not, Newton on grids,
 /// and at loose tolerances the sweeps, are. Aims at a small multiple of the best lane's time (1.3
-/// in geometric mean on 147 problems, 12 at worst); there is no proof. Own test (StopTest::kOwn)
+/// in geometric mean on 147 problems, 11 at worst); there is no proof. Own test (StopTest::kOwn)
 /// that of the lane, verified with eta.
 Method automatic();
 
