@@ -16,15 +16,13 @@ namespace conebench::solvers {
 ///
 /// tau: the prediction is repeated with tau shortened until tau |F(r) - F(p)| <= 0.9 |r - p| (norms
 /// of 1/lambda and lambda); tau grows by half after a step where 0.3 would have done, and r - p
-/// could be measured. step = unit
-/// is Korpelevich's correction, gamma s = 1; step = optimal, gamma = 1.8, goes further along the
-/// same direction wherever F is monotone.
+/// could be measured. step = unit is Korpelevich's correction, gamma s = 1; step = optimal,
+/// gamma = 1.8, goes further along the same direction wherever F is monotone.
 ///
 /// Cost    two products with W an iteration, and one for each prediction repeated.
 /// Accuracy  where r - p is too small beside r to be measured, tau stays and the correction is
-///         Korpelevich's:
-///         s is made of differences, and their rounding would stop at an eta of 1e-7 with
-///         reactions a million times the rates' size.
+///         Korpelevich's: s is made of differences, and their rounding would stop at an eta of 1e-7
+///         with reactions a million times the rates' size.
 ///
 /// Own test (StopTest::kOwn)  eta from its own r and F(r).
 /// Converges where F is monotone (theta = 0); friction makes F neither monotone nor

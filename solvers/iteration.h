@@ -24,7 +24,7 @@ class Iteration {
   virtual void start(const Eigen::VectorXd& r) = 0;
   /// One iteration of the method's outermost natural loop.
   virtual State advance() = 0;
-  /// Not asked for after every advance().
+  /// May have to write it first: it is asked for when eta is looked at, not in every iteration.
   virtual const Eigen::VectorXd& r() const = 0;
   /// The method's own estimate of eta at r(); infinity while it has none. It steers, and is
   /// verified; a lower estimate than the truth costs time, never correctness.

@@ -283,8 +283,9 @@ LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) c
   }
   Vector answer(tangents + 1);
   answer(0) = rn;
-  for (Eigen::Index i = 0; i < tangents; ++i)
+  for (Eigen::Index i = 0; i < tangents; ++i) {
     answer(i + 1) = Q_.row(i).transpose().cwiseProduct(rt).sum();
+  }
   r = answer;
   return found;
 }

@@ -1,5 +1,7 @@
 #include "tests/mpm/cloud_helper.h"
 
+#include <gtest/gtest.h>
+
 namespace conebench::test {
 
 using Eigen::Matrix3d;
@@ -61,6 +63,33 @@ mpm::Particles cloud(const mpm::Scene& scene, std::size_t count) {
     particles.affine.back() = 5.0 * random.matrix(dim);
   }
   return particles;
+}
+
+void expect_affine_unchanged(const mpm::Scene& scene, mpm::Particles particles) {
+  Random random;
+  const Matrix3d A = random.matrix(scene.grid.dim);
+  const Vector3d b = random.vector(scene.grid.dim);
+  for (std::size_t p = 0; p < particles.count(); ++p) {
+    particles.velocity[p] = A * particles.position[p] + b;
+    particles.affine[p] = A;
+  }
+  mpm::Nodes nodes;
+  mpm::scatter(scene, particles, nodes);
+  for (int i = 0; i < nodes.count(); ++i) {
+    const auto slot = static_cast<std::size_t>(i);
+    const Vector3d expected = A * nodes.mesh.grid().position(nodes.index[slot]) + b;
+    EXPECT_LT((nodes.velocity[slot] - expected).norm(), 1e-13);
+  }
+  const mpm::Particles before = particles;
+  const std::vector<mpm::Particles::Stress> stress(nodes.index.size(),
+                                                   mpm::Particles::Stress::Zero());
+  mpm::gather(scene, nodes, nodes.velocity, stress, 0.01, particles);
+  for (std::size_t p = 0; p < particles.count(); ++p) {
+    EXPECT_LT((particles.velocity[p] - before.velocity[p]).norm(), 1e-13);
+    EXPECT_LT((particles.affine[p] - A).norm(), 1e-12);
+    const Vector3d moved = before.position[p] + 0.01 * before.velocity[p];
+    EXPECT_LT((particles.position[p] - moved).norm(), 1e-14);
+  }
 }
 
 }  // namespace conebench::test

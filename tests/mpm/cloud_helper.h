@@ -28,4 +28,7 @@ mpm::Scene uneven(int dim, mpm::Condition walls);
 /// Particles anywhere, with any velocity, affine part and volume.
 mpm::Particles cloud(const mpm::Scene& scene, std::size_t count);
 
+/// A velocity linear in place comes back from the grid as it was, and moves particles by itself.
+void expect_affine_unchanged(const mpm::Scene& scene, mpm::Particles particles);
+
 }  // namespace conebench::test
