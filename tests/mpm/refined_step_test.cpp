@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "mpm/viscosity.h"
-#include "tests/engine/own_folder.h"
 #include "tests/mpm/cloud_helper.h"
 #include "tests/mpm/refined_helper.h"
 
