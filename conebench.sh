@@ -11,7 +11,7 @@ here="$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)"
 build="$here/build"
 packages=(g++ make cmake ninja-build ccache pkg-config libeigen3-dev libhdf5-dev libfmt-dev libcli11-dev
   libtomlplusplus-dev nlohmann-json3-dev libssl-dev libsqlitecpp-dev zlib1g-dev
-  libsuitesparse-dev coinor-libipopt-dev libbullet-dev
+  libsuitesparse-dev coinor-libipopt-dev libmumps-seq-dev libbullet-dev
   libnlopt-dev libsiconos-numerics-dev libbenchmark-dev libgtest-dev libgmock-dev libfclib-dev
   python3 python3-h5py)
 # For the report's page, unless they came another way.

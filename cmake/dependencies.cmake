@@ -14,6 +14,13 @@ find_package(benchmark REQUIRED)
 find_package(NLopt REQUIRED)
 pkg_check_modules(ipopt REQUIRED IMPORTED_TARGET ipopt)
 
+# MUMPS for one process; Ipopt brings it.
+find_path(MUMPS_INCLUDE dmumps_c.h PATH_SUFFIXES mumps_seq REQUIRED)
+find_library(MUMPS_LIBRARY dmumps_seq REQUIRED)
+add_library(conebench_mumps INTERFACE)
+target_include_directories(conebench_mumps SYSTEM INTERFACE ${MUMPS_INCLUDE})
+target_link_libraries(conebench_mumps INTERFACE ${MUMPS_LIBRARY})
+
 # Of Bullet the collision library alone, in doubles.
 pkg_check_modules(bullet REQUIRED bullet-float64)
 add_library(conebench_bullet INTERFACE)
@@ -24,13 +31,13 @@ foreach(name BulletCollision LinearMath)
   target_link_libraries(conebench_bullet INTERFACE ${BULLET_${name}})
 endforeach()
 
-# The parts of SuiteSparse that are GPL: supernodal CHOLMOD, UMFPACK, SPQR. Without them Eigen's own
-# sparse factorisations serve.
+# The parts of SuiteSparse that are GPL: supernodal CHOLMOD, SPQR. Without them Eigen's own sparse
+# factorisations serve.
 add_library(conebench_suitesparse INTERFACE)
 if(CONEBENCH_SUITESPARSE)
   find_path(SUITESPARSE_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
   target_include_directories(conebench_suitesparse SYSTEM INTERFACE ${SUITESPARSE_INCLUDE})
-  foreach(name cholmod umfpack spqr)
+  foreach(name cholmod spqr)
     find_library(SUITESPARSE_${name} ${name} REQUIRED)
     target_link_libraries(conebench_suitesparse INTERFACE ${SUITESPARSE_${name}})
   endforeach()

@@ -48,7 +48,7 @@ foreach(name problems solvers dem mpm results)
 endforeach()
 
 # Libraries without a package file of their own are named as they were found here.
-foreach(name suitesparse bullet siconos)
+foreach(name suitesparse mumps bullet siconos)
   if(TARGET conebench_${name})
     set_target_properties(conebench_${name} PROPERTIES EXPORT_NAME ${name})
     install(TARGETS conebench_${name} EXPORT conebenchTargets)

@@ -27,7 +27,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libconebench-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(development_packages libeigen3-dev libfmt-dev libtomlplusplus-dev nlohmann-json3-dev libhdf5-dev
   libssl-dev libsqlitecpp-dev libsqlite3-dev zlib1g-dev libbullet-dev libnlopt-dev
-  coinor-libipopt-dev pkg-config)
+  coinor-libipopt-dev libmumps-seq-dev pkg-config)
 if(CONEBENCH_SUITESPARSE)
   list(APPEND development_packages libsuitesparse-dev)
 endif()
@@ -40,7 +40,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Libraries and headers of conebench 
 
 if(CONEBENCH_SUITESPARSE)
   set(CONEBENCH_LICENCE_OF_BINARIES "These binaries use parts of SuiteSparse under the GNU General Public License (supernodal
- CHOLMOD, UMFPACK, SPQR; GPL-2+), and Ipopt under the Common Public License, which the Free
+ CHOLMOD, SPQR; GPL-2+), and Ipopt under the Common Public License, which the Free
  Software Foundation holds to be incompatible with it. Use them as you like; before you pass them
  on, build them with -DCONEBENCH_SUITESPARSE=OFF, which leaves the GPL parts out. The sources of
  conebench are under the Apache License 2.0 in either case.")

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "problems/problem.h"
+#include "solvers/with_dimension.h"
 
 namespace conebench::solvers {
 
@@ -24,31 +25,40 @@ class BlockDiagonal {
   }
 
   int count() const { return static_cast<int>(dims_.size()); }
-  Block operator[](int i) {
+  Block operator[](int i) { return block<Eigen::Dynamic>(i); }
+  ConstBlock operator[](int i) const { return block<Eigen::Dynamic>(i); }
+
+  /// The same with d_i = D known to the compiler.
+  template <int D>
+  Eigen::Map<Eigen::Matrix<double, D, D>> block(int i) {
     const auto k = static_cast<std::size_t>(i);
     return {values_.data() + begin_[k], dims_[k], dims_[k]};
   }
-  ConstBlock operator[](int i) const {
+  template <int D>
+  Eigen::Map<const Eigen::Matrix<double, D, D>> block(int i) const {
     const auto k = static_cast<std::size_t>(i);
     return {values_.data() + begin_[k], dims_[k], dims_[k]};
   }
 
   /// The products with a vector of one entry a row.
-  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const {
-    return product(x, [this](int i) { return (*this)[i]; });
-  }
-  Eigen::VectorXd transpose_times(const Eigen::VectorXd& x) const {
-    return product(x, [this](int i) { return (*this)[i].transpose(); });
-  }
+  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const { return product<false>(x); }
+  Eigen::VectorXd transpose_times(const Eigen::VectorXd& x) const { return product<true>(x); }
 
  private:
-  template <class BlockOf>
-  Eigen::VectorXd product(const Eigen::VectorXd& x, const BlockOf& block) const {
+  template <bool kTransposed>
+  Eigen::VectorXd product(const Eigen::VectorXd& x) const {
     Eigen::VectorXd y(x.size());
     Eigen::Index at = 0;
     for (int i = 0; i < count(); ++i) {
       const int dim = dims_[static_cast<std::size_t>(i)];
-      y.segment(at, dim).noalias() = block(i) * x.segment(at, dim);
+      with_dimension(dim, [&]<int D>() {
+        const auto part = x.segment<D>(at, dim);
+        if constexpr (kTransposed) {
+          y.segment<D>(at, dim) = block<D>(i).transpose().lazyProduct(part);
+        } else {
+          y.segment<D>(at, dim) = block<D>(i).lazyProduct(part);
+        }
+      });
       at += dim;
     }
     return y;

@@ -21,6 +21,10 @@ constexpr int kRefinements = 3;
 constexpr double kRounding = 2e-15;  // of a sum, as a share of the sum of its terms' sizes
 constexpr int kShortenings = 8;
 constexpr double kShortestStep = 1e-8;
+constexpr double kSmoothing = 0.01;  // as a share of what the gap allows
+constexpr double kShort = 0.3;       // a step below this is better gone with the shift held
+constexpr int kCorrections = 4;
+constexpr double kWorthwhile = 1.02;  // further, by this factor, is worth a correction
 
 }  // namespace
 
@@ -30,7 +34,7 @@ InteriorPoint::InteriorPoint(const Problem& problem, ScaledSystem::Form form, bo
       system_(problem, form, !coulomb),
       R_(problem),
       C_(problem),
-      scalings_(static_cast<std::size_t>(problem.cone_count())) {}
+      scalings_(problem) {}
 
 void InteriorPoint::pose(const Eigen::VectorXd& shift, const Eigen::VectorXd& r) {
   posed_ = shift;
@@ -59,24 +63,18 @@ void InteriorPoint::pose(const Eigen::VectorXd& shift, const Eigen::VectorXd& r)
 
 State InteriorPoint::advance(double) {
   if (problem_.cone_count() == 0) return State::kStalled;
-  for (int i = 0; i < problem_.cone_count(); ++i) {
-    const int at = problem_.start(i), dim = cone(i).dim;
-    NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
-    scaling.set(cone(i).mu, r_.segment(at, dim), x_.segment(at, dim));
-    scaling.write_R(R_[i]);
-  }
+  scalings_.set(r_, x_);
+  scalings_.write_R(R_);
   const Eigen::VectorXd residual = residual_above_rounding();
   if (!residual.allFinite()) return State::kStalled;
-  if (!affine_direction(residual)) return State::kStalled;
-  const double affine = step_length(1.0);
-  const double sigma = std::pow(1.0 - affine, 3);
-  direction((1.0 - sigma) * residual, sigma * nu_, affine * affine);
-  double step = kToBoundary * step_length(1.0 / kToBoundary);
-  if (!dr_.allFinite() || !dx_.allFinite()) return State::kStalled;
-  step = coulomb_ ? shorten(step, 1.0 - sigma, residual.norm()) : std::min(step, 1.0);
+  double step = find_direction(residual, !coulomb_);
+  if (coulomb_ && step < kShort) {
+    hold_shift();
+    step = find_direction(residual, true);
+  }
   if (step < kShortestStep) return State::kStalled;
-  r_ += step * dr_;
-  x_ += step * dx_;
+  r_ += step * direction_.dr;
+  x_ += step * direction_.dx;
   keep_inside();
   u_ = problem_.rate(r_);
   update();
@@ -93,28 +91,32 @@ double InteriorPoint::eta() const {
 
 double InteriorPoint::smoothing_of(int i) const {
   const double root = std::sqrt(std::max(nu_, 0.0) * problem_.mobility()(i));
-  return root * std::min(1.0, root / scale());
+  return kSmoothing * root * std::min(1.0, root / scale());
 }
 
 // Gap, shift and its derivative at the current iterate.
 void InteriorPoint::update() {
   nu_ = r_.dot(x_) / std::max(problem_.cone_count(), 1);
   smoothing_ = 0.0;
+  hold_shift();
   if (coulomb_) posed_.resize(problem_.cone_count());
-  for (int i = 0; i < problem_.cone_count(); ++i) {
-    C_[i].setIdentity();
-    if (!coulomb_) continue;
-    const int at = problem_.start(i), tangents = cone(i).dim - 1;
-    const double eps = smoothing_of(i);
+  for (int i = 0; coulomb_ && i < problem_.cone_count(); ++i) {
+    const int at = problem_.start(i);
+    const double eps = smoothing_of(i), theta = cone(i).theta;
+    double square = eps * eps;
+    for (int k = 1; k < cone(i).dim; ++k) square += u_(at + k) * u_(at + k);
+    const double length = std::sqrt(square);
     smoothing_ = std::max(smoothing_, eps);
-    const auto ut = u_.segment(at + 1, tangents);
-    const double length = std::hypot(ut.norm(), eps);
-    posed_(i) = cone(i).theta * length;
-    if (length > 0.0) {
-      C_[i].row(0).tail(tangents) = (cone(i).theta / length * ut).transpose();
-    }
+    posed_(i) = theta * length;
+    auto C = C_[i];
+    for (int k = 1; length > 0.0 && k < cone(i).dim; ++k) C(0, k) = theta / length * u_(at + k);
   }
   error_ = convex_error(problem_, posed_, r_, u_);
+}
+
+// C = I: directions in which the shift stays as it is.
+void InteriorPoint::hold_shift() {
+  for (int i = 0; i < problem_.cone_count(); ++i) C_[i].setIdentity();
 }
 
 // e, its entries of the size of the rounding in u taken as zero: where x is smaller than that
@@ -138,43 +140,68 @@ Eigen::VectorXd InteriorPoint::shift_normals() const {
   return t;
 }
 
+// Predicts and corrects. Returns how far the direction may be gone; 0 where there is none.
+double InteriorPoint::find_direction(const Eigen::VectorXd& residual, bool shift_held) {
+  if (!affine_direction(residual)) return 0.0;
+  const double affine = step_length(1.0);
+  const double sigma = std::pow(1.0 - affine, 3);
+  direction((1.0 - sigma) * residual, sigma * nu_, affine * affine);
+  if (!direction_.dr.allFinite() || !direction_.dx.allFinite()) return 0.0;
+  double step = to_boundary();
+  for (int k = 0; k < kCorrections; ++k) {
+    const Direction before = direction_;
+    direction((1.0 - sigma) * residual, sigma * nu_, step);
+    const double further = to_boundary();
+    if (!(further > kWorthwhile * step)) {
+      direction_ = before;
+      break;
+    }
+    step = further;
+  }
+  return shift_held ? step : shorten(step, 1.0 - sigma, residual.norm());
+}
+
 // False where the system has no factor in doubles.
 bool InteriorPoint::affine_direction(const Eigen::VectorXd& residual) {
-  const bool factorised = system_.factorize(R_, C_);
-  if (factorised && direction(residual, 0.0, 0.0) <= system_.fine()) return true;
-  if (!system_.can_be_finer()) return factorised;
-  system_.be_finer();
-  if (!system_.factorize(R_, C_)) return false;
-  direction(residual, 0.0, 0.0);
-  return true;
+  for (;;) {
+    const bool factorised = system_.factorize(R_, C_);
+    if (factorised && direction(residual, 0.0, 0.0) <= system_.fine()) return true;
+    if (!system_.can_be_finer()) return factorised;
+    system_.be_finer();
+  }
 }
 
 // dr~ + dx~ = lambda \ (target - lambda o lambda - correction * last dx~ o last dr~) with
 // dx = C W dr + e gives (I + R C W R^T) dr~ = that - R e, refined against W itself.
 // Returns the relative residual that is left.
 double InteriorPoint::direction(const Eigen::VectorXd& residual, double target, double correction) {
+  Direction& d = direction_;
   Eigen::VectorXd z = Eigen::VectorXd::Zero(problem_.rows());
   for (int i = 0; i < problem_.cone_count(); ++i) {
-    const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
-    const Eigen::Index at = problem_.start(i), size = scaling.size();
-    Eigen::VectorXd c = -jordan_product(scaling.lambda(), scaling.lambda());
-    c(0) += target;
-    if (correction > 0.0) {
-      c -= correction * jordan_product(scaled_dx_.segment(at, size), scaled_dr_.segment(at, size));
-    }
-    z.segment(at, size) = jordan_divide(scaling.lambda(), c);
+    const Eigen::Index at = problem_.start(i), size = scalings_.size(i);
+    with_dimension(size, [&]<int D>() {
+      using Vector = Eigen::Matrix<double, D, 1>;
+      const Vector lambda = scalings_.lambda().segment<D>(at, size);
+      Vector c = -jordan_product(lambda, lambda);
+      c(0) += target;
+      if (correction > 0.0) {
+        const Vector dx = d.scaled_dx.segment<D>(at, size), dr = d.scaled_dr.segment<D>(at, size);
+        c -= correction * jordan_product(dx, dr);
+      }
+      z.segment<D>(at, size) = jordan_divide(lambda, c);
+    });
   }
   const Eigen::VectorXd rhs = z - R_ * residual;
   auto move = [&](const Eigen::VectorXd& scaled) {
-    scaled_dr_ = scaled;
-    dr_ = R_.transpose_times(scaled);
-    du_ = problem_.apply_delassus(dr_);
-    dx_ = C_ * du_;
-    return Eigen::VectorXd(rhs - scaled - R_ * dx_);
+    d.scaled_dr = scaled;
+    d.dr = R_.transpose_times(scaled);
+    d.du = problem_.apply_delassus(d.dr);
+    d.dx = C_ * d.du;
+    return Eigen::VectorXd(rhs - scaled - R_ * d.dx);
   };
   Eigen::VectorXd left = move(system_.solve(rhs));
   for (int k = 0; k < kRefinements && left.norm() > system_.refined() * rhs.norm(); ++k) {
-    const Eigen::VectorXd before = scaled_dr_;
+    const Eigen::VectorXd before = d.scaled_dr;
     const Eigen::VectorXd left_then = move(before + system_.solve(left));
     if (!(left_then.norm() < left.norm())) {
       move(before);
@@ -182,19 +209,25 @@ double InteriorPoint::direction(const Eigen::VectorXd& residual, double target, 
     }
     left = left_then;
   }
-  dx_ += residual;
-  scaled_dx_ = z - scaled_dr_;
+  d.dx += residual;
+  d.scaled_dx = z - d.scaled_dr;
   return left.norm() / std::max(rhs.norm(), std::numeric_limits<double>::min());
+}
+
+double InteriorPoint::to_boundary() const {
+  return std::min(kToBoundary * step_length(1.0 / kToBoundary), 1.0);
 }
 
 // The longest step that keeps r and x in their cones.
 double InteriorPoint::step_length(double longest) const {
   double step = longest;
   for (int i = 0; i < problem_.cone_count(); ++i) {
-    const NtScaling& scaling = scalings_[static_cast<std::size_t>(i)];
-    const Eigen::Index at = problem_.start(i), size = scaling.size();
-    step = longest_step(scaling.lambda(), scaled_dr_.segment(at, size), step);
-    step = longest_step(scaling.lambda(), scaled_dx_.segment(at, size), step);
+    const Eigen::Index at = problem_.start(i), size = scalings_.size(i);
+    with_dimension(size, [&]<int D>() {
+      const auto lambda = scalings_.lambda().segment<D>(at, size);
+      step = longest_step(lambda, direction_.scaled_dr.segment<D>(at, size), step);
+      step = longest_step(lambda, direction_.scaled_dx.segment<D>(at, size), step);
+    });
   }
   return step;
 }
@@ -216,17 +249,26 @@ void InteriorPoint::keep_inside() {
 
 // The residual of the nonlinear x = u + theta |u_t|_eps e_n must fall, or stay below the gap.
 double InteriorPoint::shorten(double step, double share, double before) const {
-  step = std::min(step, 1.0);
   const double rounding = 1e-15 * std::max(u_.norm(), scale());
   const double gap = std::sqrt(std::max(nu_, 0.0) * problem_.mobility().maxCoeff());  // as a rate
   for (int trial = 0; trial < kShortenings; ++trial) {
     double square = 0.0;
     for (int i = 0; i < problem_.cone_count(); ++i) {
       const int at = problem_.start(i), dim = cone(i).dim;
-      const Eigen::VectorXd u = u_.segment(at, dim) + step * du_.segment(at, dim);
-      Eigen::VectorXd e = u - x_.segment(at, dim) - step * dx_.segment(at, dim);
-      e(0) += cone(i).theta * std::hypot(u.tail(dim - 1).norm(), smoothing_of(i));
-      square += e.squaredNorm();
+      const double eps = smoothing_of(i);
+      double slip_square = eps * eps, normal = 0.0;
+      for (int k = 0; k < dim; ++k) {
+        const double u = u_(at + k) + step * direction_.du(at + k);
+        const double e = u - x_(at + k) - step * direction_.dx(at + k);
+        if (k == 0) {
+          normal = e;
+        } else {
+          square += e * e;
+          slip_square += u * u;
+        }
+      }
+      normal += cone(i).theta * std::sqrt(slip_square);
+      square += normal * normal;
     }
     const double allowed = (1.0 - 0.1 * share * step) * before + rounding;
     if (std::sqrt(square) <= std::max(allowed, 0.1 * gap)) return step;

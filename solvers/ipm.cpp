@@ -32,7 +32,7 @@ class CoulombInteriorPoint final : public Iteration {
     best_ = r;
     const Eigen::VectorXd u = problem_.rate(r);
     eta_ = convex_error(problem_, de_saxce_shift(problem_, u), r, u);
-    direct_.pose({}, r);
+    direct_.pose({}, Eigen::VectorXd::Zero(r.size()));
     least_gap_ = std::numeric_limits<double>::infinity();
     patience_ = kPatience;
     keep_best(direct_.eta(), direct_.r());

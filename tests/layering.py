@@ -22,7 +22,7 @@ MAY_INCLUDE = {
 }
 # Libraries whose types must not stand in a header that crosses a folder.
 PRIVATE_LIBRARIES = re.compile(
-    r"<(hdf5|H5|Ip|coin|nlopt|cholmod|umfpack|SuiteSparse|openssl|SQLiteCpp|sqlite|"
+    r"<(hdf5|H5|Ip|coin|nlopt|cholmod|SuiteSparse|dmumps|openssl|SQLiteCpp|sqlite|"
     r"Bullet|LinearMath|bt[A-Z])")
 # Headers that only their own folder may include.
 INTERNAL = {"problems/hdf5_file.h", "results/store_connection.h"}

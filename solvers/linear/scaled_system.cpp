@@ -1,12 +1,13 @@
 #include "solvers/linear/scaled_system.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <cmath>
 
 #include "solvers/linear/general_system.h"
-#include "solvers/linear/gmres.h"
 #include "solvers/linear/kkt_system.h"
 #include "solvers/linear/normal_system.h"
+#include "solvers/linear/sliding_system.h"
 
 namespace conebench::solvers {
 namespace {
@@ -14,23 +15,29 @@ namespace {
 using problems::Problem;
 
 constexpr double kRegularisation = 1e-13;  // of W, as a share of the mobility
-// Relative residuals: see ScaledSystem::fine(), refined().
+// Relative residuals: see ScaledSystem::fine(), refined(). With LU of normal equations an interior
+// point loses nothing by the looser ones.
 constexpr double kFine = 1e-10, kRefined = 1e-13;
-// With GMRES: an interior point loses a few iterations by it at most.
-constexpr double kLoose = 1e-3, kKrylovResidual = 1e-4;
-constexpr int kMostKrylov = 40;
-constexpr double kSlidingWork = 3.0;  // of a factorisation with GMRES, over one without
+constexpr double kLooselyFine = 1e-3, kLooselyRefined = 1e-6;
 
-// L with L L^T = I + delta R R^T, from the QR factors of [I; sqrt(delta) R^T]: whatever the size of
-// R, nothing is squared.
-Eigen::MatrixXd root(double delta, const Eigen::Ref<const Eigen::MatrixXd>& R) {
-  const Eigen::Index dim = R.rows();
-  Eigen::MatrixXd stacked(2 * dim, dim);
-  stacked.topRows(dim).setIdentity();
-  stacked.bottomRows(dim) = std::sqrt(delta) * R.transpose();
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
-  const Eigen::MatrixXd upper = qr.matrixQR().topRows(dim).triangularView<Eigen::Upper>();
-  return upper.transpose();
+// L with L L^T = I + delta R R^T. Where the second term is large, from the QR factors of
+// [I; sqrt(delta) R^T]: nothing is squared.
+template <class Matrix>
+Matrix root(double delta, const Matrix& R) {
+  if constexpr (Matrix::RowsAtCompileTime == 1) {
+    return Matrix(std::hypot(1.0, std::sqrt(delta) * R(0)));
+  } else {
+    const Eigen::Index dim = R.rows();
+    const Matrix gram = delta * R.lazyProduct(R.transpose());
+    if (gram.norm() < 1.0) return (Matrix::Identity(dim, dim) + gram).llt().matrixL();
+    Eigen::MatrixXd stacked(2 * dim, dim);
+    stacked.topRows(dim).setIdentity();
+    stacked.bottomRows(dim) = std::sqrt(delta) * R.transpose();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(stacked);
+    const Eigen::MatrixXd upper =
+        qr.matrixQR().topRows(dim).template triangularView<Eigen::Upper>();
+    return upper.transpose();
+  }
 }
 
 }  // namespace
@@ -38,30 +45,28 @@ Eigen::MatrixXd root(double delta, const Eigen::Ref<const Eigen::MatrixXd>& R) {
 ScaledSystem::ScaledSystem(const Problem& problem, Form form, bool symmetric)
     : problem_(problem),
       symmetric_(symmetric),
+      may_switch_(form == Form::kAuto && problem.is_primal()),
       identity_(problem),
-      C_(problem),
       L_(problem),
       S_(problem),
       SC_(problem) {
   for (int i = 0; i < identity_.count(); ++i) identity_[i].setIdentity();
-  may_switch_ = form == Form::kAuto && problem.is_primal();
   const bool kkt = form == Form::kKkt ||
                    (may_switch_ && KktSystem::nonzeros(problem) < NormalSystem::nonzeros(problem));
-  if (kkt) {
-    kkt_ = std::make_unique<KktSystem>(problem);
-  } else {
+  if (kkt || (!symmetric && !problem.is_primal())) {
+    be_finer();
+  } else if (symmetric) {
     normal_ = std::make_unique<NormalSystem>(problem);
+  } else {
+    sliding_ = std::make_unique<SlidingSystem>(problem);
   }
 }
 ScaledSystem::~ScaledSystem() = default;
 
-bool ScaledSystem::can_be_finer() const {
-  return symmetric_ ? may_switch_ && normal_ != nullptr : general_ == nullptr;
-}
-
 void ScaledSystem::be_finer() {
+  may_switch_ = false;
   normal_.reset();
-  kkt_.reset();
+  sliding_.reset();
   if (symmetric_) {
     kkt_ = std::make_unique<KktSystem>(problem_);
   } else {
@@ -69,70 +74,56 @@ void ScaledSystem::be_finer() {
   }
 }
 
-double ScaledSystem::fine() const { return symmetric_ || general_ ? kFine : kLoose; }
-double ScaledSystem::refined() const { return symmetric_ || general_ ? kRefined : kLoose; }
+double ScaledSystem::fine() const { return sliding_ ? kLooselyFine : kFine; }
+double ScaledSystem::refined() const { return sliding_ ? kLooselyRefined : kRefined; }
 
 bool ScaledSystem::factorize(const BlockDiagonal& R, const BlockDiagonal& C) {
   for (int i = 0; i < R.count(); ++i) {
-    L_[i] = root(kRegularisation * problem_.mobility()(i), R[i]);
-    S_[i] = L_[i].triangularView<Eigen::Lower>().solve(R[i]);
+    const double delta = kRegularisation * problem_.mobility()(i);
+    with_dimension(R[i].rows(), [&]<int D>() {
+      using Matrix = Eigen::Matrix<double, D, D>;
+      const Matrix Ri = R.block<D>(i);
+      const Matrix L = root(delta, Ri);
+      const Matrix S = L.template triangularView<Eigen::Lower>().solve(Ri);
+      L_.block<D>(i) = L;
+      S_.block<D>(i) = S;
+      if (!symmetric_) SC_.block<D>(i) = S.lazyProduct(C.block<D>(i));
+    });
   }
-  C_ = C;
   if (kkt_) return kkt_->factorize(S_);
   if (normal_) return normal_->factorize_root(S_);
-  for (int i = 0; i < R.count(); ++i) SC_[i].noalias() = S_[i] * C[i];
+  if (sliding_) return sliding_->factorize(S_, SC_);
   return general_->factorize(identity_, SC_, &S_);
 }
 
 Eigen::VectorXd ScaledSystem::solve(Eigen::VectorXd z) const {
-  for (int i = 0; i < L_.count(); ++i) {
-    auto part = z.segment(problem_.start(i), L_[i].rows());
-    L_[i].triangularView<Eigen::Lower>().solveInPlace(part);
-  }
-  z = general_ ? general_->solve(z) : symmetric_ ? solve_symmetric(z) : solve_sliding(z);
-  for (int i = 0; i < L_.count(); ++i) {
-    auto part = z.segment(problem_.start(i), L_[i].rows());
-    L_[i].transpose().triangularView<Eigen::Upper>().solveInPlace(part);
-  }
-  return z;
-}
-
-Eigen::VectorXd ScaledSystem::solve_symmetric(const Eigen::VectorXd& z) const {
-  return kkt_ ? kkt_->solve(z) : normal_->solve_root(z);
-}
-
-// t_i = c_i.(W S^T y)_i of each cone for y = solve_symmetric(z).
-Eigen::VectorXd ScaledSystem::slide(const Eigen::VectorXd& z) const {
-  const Eigen::VectorXd u = kkt_ ? kkt_->solve_rate(z) : normal_->solve_root_rate(z);
-  Eigen::VectorXd t(problem_.cone_count());
-  for (int i = 0; i < problem_.cone_count(); ++i) {
-    const Eigen::Index tangents = S_[i].rows() - 1;
-    t(i) = C_[i].row(0).tail(tangents).dot(u.segment(problem_.start(i) + 1, tangents));
-  }
-  return t;
-}
-
-// S e_n t.
-Eigen::VectorXd ScaledSystem::kick(const Eigen::VectorXd& t) const {
-  Eigen::VectorXd z(problem_.rows());
-  for (int i = 0; i < problem_.cone_count(); ++i) {
-    z.segment(problem_.start(i), S_[i].rows()) = t(i) * S_[i].col(0);
-  }
-  return z;
-}
-
-// (I + S W S^T) y = z - kick(t), in which t + slide(kick(t)) = slide(z).
-Eigen::VectorXd ScaledSystem::solve_sliding(const Eigen::VectorXd& z) const {
-  const auto apply = [this](const Eigen::VectorXd& t) {
-    return Eigen::VectorXd(t + slide(kick(t)));
+  const auto for_parts = [&](const auto& function) {
+    for (int i = 0; i < L_.count(); ++i) {
+      const Eigen::Index at = problem_.start(i), dim = L_[i].rows();
+      with_dimension(dim, [&]<int D>() {
+        auto part = z.segment<D>(at, dim);
+        function(L_.block<D>(i), part);
+      });
+    }
   };
-  return solve_symmetric(z - kick(gmres(apply, slide(z), kKrylovResidual, kMostKrylov).x));
+  for_parts([](const auto& L, auto& part) {
+    L.template triangularView<Eigen::Lower>().solveInPlace(part);
+  });
+  z = kkt_       ? kkt_->solve(z)
+      : normal_  ? normal_->solve_root(z)
+      : sliding_ ? sliding_->solve(z)
+                 : general_->solve(z);
+  for_parts([](const auto& L, auto& part) {
+    L.transpose().template triangularView<Eigen::Upper>().solveInPlace(part);
+  });
+  return z;
 }
 
 double ScaledSystem::work_s() const {
-  if (general_) return general_->work_s();
-  const double factor_s = kkt_ ? kkt_->work_s() : normal_->work_s();
-  return symmetric_ ? factor_s : kSlidingWork * factor_s;
+  return kkt_       ? kkt_->work_s()
+         : normal_  ? normal_->work_s()
+         : sliding_ ? sliding_->work_s()
+                    : general_->work_s();
 }
 
 }  // namespace conebench::solvers

@@ -7,6 +7,7 @@ namespace conebench::solvers {
 class GeneralSystem;
 class KktSystem;
 class NormalSystem;
+class SlidingSystem;
 
 /// The linear system of an interior point, (I + R C W R^T) y = z, with block diagonal scalings R
 /// that grow and shrink without bound and C = I, or near it.
@@ -17,21 +18,20 @@ class NormalSystem;
 class ScaledSystem {
  public:
   enum class Form {
-    kAuto,    ///< the one with fewer nonzeros; kKkt for good once be_finer() was asked for
-    kNormal,  ///< M + H^T S^T S H, or I + S W S^T in the reduced form (linear/normal_system.h)
+    kAuto,    ///< the one with fewer nonzeros; the finer one once be_finer() was asked for
+    kNormal,  ///< M + H^T S^T S C H (linear/normal_system.h, linear/sliding_system.h), or
+              ///< I + S C W S^T in the reduced form
     kKkt,     ///< [M, H^T S^T; S H, -I], quasidefinite (linear/kkt_system.h); primal form only
   };
 
-  /// `symmetric`: C = I. Otherwise C_i = I + e_n c_i^T, c_i tangential: the same symmetric factor
-  /// and GMRES for t_i = c_i.(W R^T y)_i, one unknown a cone, to a looser residual; be_finer() puts
-  /// LU of the whole (linear/general_system.h) in their place.
+  /// `symmetric`: C = I. Otherwise C_i = I + e_n c_i^T, c_i tangential, and LU in place of
+  /// Cholesky; in place of the quasidefinite form that of linear/general_system.h.
   ScaledSystem(const problems::Problem& problem, Form form, bool symmetric);
   ~ScaledSystem();
 
-  /// The finer form from here on, if there is one. Symmetric: the quasidefinite form, since near
-  /// the solution the normal equations lose what scalings, very large on some cones and very small
-  /// on others, make cancel. Otherwise LU.
-  bool can_be_finer() const;
+  /// The finer form from here on, if there is one: not the normal equations, which near the
+  /// solution lose what scalings, very large on some cones and very small on others, make cancel.
+  bool can_be_finer() const { return may_switch_; }
   void be_finer();
 
   /// False where there is no factor in doubles.
@@ -47,17 +47,13 @@ class ScaledSystem {
   double work_s() const;
 
  private:
-  Eigen::VectorXd solve_symmetric(const Eigen::VectorXd& z) const;
-  Eigen::VectorXd solve_sliding(const Eigen::VectorXd& z) const;
-  Eigen::VectorXd slide(const Eigen::VectorXd& z) const;
-  Eigen::VectorXd kick(const Eigen::VectorXd& t) const;
-
   const problems::Problem& problem_;
-  bool symmetric_;
-  BlockDiagonal identity_, C_, L_, S_, SC_;
-  bool may_switch_ = false;
+  bool symmetric_, may_switch_;
+  BlockDiagonal identity_, L_, S_, SC_;
+  // One of them is there.
   std::unique_ptr<NormalSystem> normal_;
   std::unique_ptr<KktSystem> kkt_;
+  std::unique_ptr<SlidingSystem> sliding_;
   std::unique_ptr<GeneralSystem> general_;
 };
 

@@ -7,6 +7,7 @@
 #include "solvers/local/newton_ac.h"
 #include "solvers/local/newton_fb.h"
 #include "solvers/local/quartic.h"
+#include "solvers/with_dimension.h"
 
 namespace conebench::solvers {
 
@@ -75,23 +76,5 @@ extern template class OneCone<2>;
 extern template class OneCone<3>;
 extern template class OneCone<6>;
 extern template class OneCone<Eigen::Dynamic>;
-
-/// Calls function.template operator()<D>() with D = dim where OneCone has code for that dimension,
-/// else with D = Eigen::Dynamic.
-template <class Function>
-decltype(auto) with_dimension(int dim, const Function& function) {
-  switch (dim) {
-    case 1:
-      return function.template operator()<1>();
-    case 2:
-      return function.template operator()<2>();
-    case 3:
-      return function.template operator()<3>();
-    case 6:
-      return function.template operator()<6>();
-    default:
-      return function.template operator()<Eigen::Dynamic>();
-  }
-}
 
 }  // namespace conebench::solvers
