@@ -21,8 +21,7 @@ constexpr int kRefinements = 3;
 constexpr double kRounding = 2e-15;  // of a sum, as a share of the sum of its terms' sizes
 constexpr int kShortenings = 8;
 constexpr double kShortestStep = 1e-8;
-constexpr double kSmoothing = 0.01;  // as a share of what the gap allows
-constexpr double kShort = 0.3;       // a step below this is better gone with the shift held
+constexpr double kShort = 0.3;  // a step below this is better gone with the shift held
 constexpr int kCorrections = 4;
 constexpr double kWorthwhile = 1.02;  // further, by this factor, is worth a correction
 
@@ -91,7 +90,7 @@ double InteriorPoint::eta() const {
 
 double InteriorPoint::smoothing_of(int i) const {
   const double root = std::sqrt(std::max(nu_, 0.0) * problem_.mobility()(i));
-  return kSmoothing * root * std::min(1.0, root / scale());
+  return smoothing_share_ * root * std::min(1.0, root / scale());
 }
 
 // Gap, shift and its derivative at the current iterate.

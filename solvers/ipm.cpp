@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <iterator>
+#include <vector>
 
 #include "solvers/aclm.h"
 #include "solvers/interior_point.h"
@@ -18,9 +19,12 @@ std::unique_ptr<ConvexIteration> make_interior_point(const Problem& problem, For
   return std::make_unique<InteriorPoint>(problem, form, false);
 }
 
-// Iterations that lowered neither the gap nor eta by this factor, in a row, are a trap.
-constexpr double kProgress = 0.9;
-constexpr int kPatience = 8;
+// The smoothing of a first attempt, and of another after a trap.
+constexpr double kSmoothings[] = {0.1, 1.0};
+// An attempt whose gap has not halved in so many iterations is trapped.
+constexpr int kPatience = 5;
+// A trap below this eta is rounding: there the fixed point goes on.
+constexpr double kRounding = 1e-6;
 
 class CoulombInteriorPoint final : public Iteration {
  public:
@@ -32,34 +36,27 @@ class CoulombInteriorPoint final : public Iteration {
     best_ = r;
     const Eigen::VectorXd u = problem_.rate(r);
     eta_ = convex_error(problem_, de_saxce_shift(problem_, u), r, u);
-    direct_.pose({}, Eigen::VectorXd::Zero(r.size()));
-    least_gap_ = std::numeric_limits<double>::infinity();
-    patience_ = kPatience;
-    keep_best(direct_.eta(), direct_.r());
+    attempt_ = 0;
+    attempt();
   }
 
   State advance() override {
+    if (problem_.cone_count() == 0) return State::kStalled;
     if (fixed_point_) {
       const State state = fixed_point_->advance();
       keep_best(fixed_point_->own_eta(), fixed_point_->r());
       return state;
     }
-    const double eta = eta_;
     const State state = direct_.advance(0.0);
     work_s_ += direct_.step_work_s();
-    if (state == State::kRunning) {
-      keep_best(direct_.eta(), direct_.r());
-      if (eta_ <= kProgress * eta || direct_.gap() <= kProgress * least_gap_) {
-        patience_ = kPatience;
-      } else {
-        --patience_;
-      }
-      least_gap_ = std::min(least_gap_, direct_.gap());
-      if (patience_ > 0) return state;
+    keep_best(direct_.eta(), direct_.r());
+    if (state == State::kRunning && !trapped()) return state;
+    if (++attempt_ < std::size(kSmoothings) && eta_ > kRounding) {
+      attempt();
+    } else {
+      fixed_point_ = make_aclm(problem_, make_interior_point(problem_, Form::kAuto), {});
+      fixed_point_->start(best_);
     }
-    if (problem_.cone_count() == 0) return state;
-    fixed_point_ = make_aclm(problem_, make_interior_point(problem_, Form::kAuto), {});
-    fixed_point_->start(best_);
     return State::kRunning;
   }
 
@@ -71,11 +68,25 @@ class CoulombInteriorPoint final : public Iteration {
   }
   std::vector<std::string> notes() const override {
     std::vector<std::string> notes{fmt::format("last smoothing eps = {:.2g}", direct_.smoothing())};
+    if (attempt_ > 0) notes.push_back("trapped in its first attempt");
     if (fixed_point_) notes.push_back("went on as aclm-ipm from its best iterate");
     return notes;
   }
 
  private:
+  // From r = 0: a guess is too near the cones' boundaries to begin with.
+  void attempt() {
+    direct_.smooth(kSmoothings[attempt_]);
+    direct_.pose({}, Eigen::VectorXd::Zero(problem_.rows()));
+    gaps_.assign(1, direct_.gap());
+  }
+
+  bool trapped() {
+    gaps_.push_back(direct_.gap());
+    if (gaps_.size() <= kPatience) return false;
+    return !(gaps_.back() <= 0.5 * gaps_[gaps_.size() - 1 - kPatience]);
+  }
+
   void keep_best(double eta, const Eigen::VectorXd& r) {
     if (!(eta < eta_)) return;
     eta_ = eta;
@@ -86,9 +97,10 @@ class CoulombInteriorPoint final : public Iteration {
   InteriorPoint direct_;
   std::unique_ptr<Iteration> fixed_point_;  // once the direct method is trapped
   Eigen::VectorXd best_;
-  double eta_ = 0.0, least_gap_ = 0.0;
+  double eta_ = 0.0;
   double work_s_ = 0.0;  // of the direct method
-  int patience_ = kPatience;
+  std::size_t attempt_ = 0;
+  std::vector<double> gaps_;  // of this attempt
 };
 
 Form form_of(const Values& values) {

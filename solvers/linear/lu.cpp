@@ -2,23 +2,39 @@
 
 #include <dmumps_c.h>
 
+#include <Eigen/SparseLU>
 #include <mutex>
 #include <vector>
 
 namespace conebench::solvers {
+
+class Lu::Factor {
+ public:
+  virtual ~Factor() = default;
+  virtual void analyse(const Matrix& matrix) = 0;
+  virtual bool factorize(const Matrix& matrix) = 0;
+  virtual Eigen::VectorXd solve(const Eigen::VectorXd& b) = 0;
+  virtual double flops() const = 0;
+  virtual double nonzeros() const = 0;
+};
+
 namespace {
 
 constexpr double kSecondsPerFlop = 0.4e-9, kSecondsPerNonzero = 15e-9;
+
+// A call of MUMPS takes 40 us whatever the size, which up to here is more than it gains.
+constexpr Eigen::Index kSmall = 250;
+
+// Room for pivots put off, in percent of what the analysis expects.
+constexpr int kFirstRoom = 50, kMostRoom = 5000;
 // A pivot on the diagonal is taken from this share of its column's largest entry on: the ordering
 // survives.
 constexpr double kDiagonalPivot = 1e-8;
-// Room for pivots put off, in percent of what the analysis expects.
-constexpr int kFirstRoom = 50, kMostRoom = 5000;
 
-// MUMPS' job numbers, and the constant that stands for "all processes".
+// MUMPS' job numbers, its answer that the room is too small, and its number for "all processes".
 enum Job { kInitialise = -1, kFinish = -2, kAnalyse = 1, kFactorize = 2, kSolve = 3 };
-constexpr MUMPS_INT kWorld = -987654;
 constexpr int kTooLittleRoom = -9;
+constexpr MUMPS_INT kWorld = -987654;
 
 std::mutex& one_caller() {
   static std::mutex mutex;
@@ -27,25 +43,26 @@ std::mutex& one_caller() {
 
 }  // namespace
 
-class Lu::Factor {
+class Lu::Multifrontal final : public Factor {
  public:
-  Factor() {
+  Multifrontal() {
     mumps_.par = 1;
     mumps_.sym = 0;
     mumps_.comm_fortran = kWorld;
     run(kInitialise);
-    for (const int stream : {1, 2, 3, 4}) control(stream) = stream < 4 ? -1 : 0;  // silent
+    for (const int stream : {1, 2, 3}) control(stream) = -1;  // silent
+    control(4) = 0;
     control(6) = 0;  // columns as they are
     control(7) = 6;  // quasi-dense approximate minimum degree
-    control(8) = 0;  // no scaling: cones' units are alike
+    control(8) = 0;  // no scaling
     control(14) = kFirstRoom;
     mumps_.cntl[0] = kDiagonalPivot;
   }
-  ~Factor() { run(kFinish); }
-  Factor(const Factor&) = delete;
-  Factor& operator=(const Factor&) = delete;
+  ~Multifrontal() override { run(kFinish); }
+  Multifrontal(const Multifrontal&) = delete;
+  Multifrontal& operator=(const Multifrontal&) = delete;
 
-  void analyse(const Matrix& matrix) {
+  void analyse(const Matrix& matrix) override {
     rows_.clear();
     columns_.clear();
     for (int j = 0; j < matrix.outerSize(); ++j) {
@@ -61,8 +78,8 @@ class Lu::Factor {
     run(kAnalyse);
   }
 
-  bool factorize(const Matrix& matrix) {
-    mumps_.a = const_cast<double*>(matrix.valuePtr());
+  bool factorize(const Matrix& matrix) override {
+    mumps_.a = const_cast<double*>(matrix.valuePtr());  // is only read
     run(kFactorize);
     while (mumps_.infog[0] == kTooLittleRoom && control(14) < kMostRoom) {
       control(14) *= 2;
@@ -71,15 +88,19 @@ class Lu::Factor {
     return mumps_.infog[0] >= 0;
   }
 
-  Eigen::VectorXd solve(const Eigen::VectorXd& b) {
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) override {
     Eigen::VectorXd x = b;
     mumps_.rhs = x.data();
     run(kSolve);
     return x;
   }
 
-  double flops() const { return mumps_.rinfog[2]; }
-  double nonzeros() const { return static_cast<double>(mumps_.infog[8]); }
+  double flops() const override { return mumps_.rinfog[2]; }
+  // In millions where the number is negative.
+  double nonzeros() const override {
+    const double entries = static_cast<double>(mumps_.infog[8]);
+    return entries >= 0.0 ? entries : -1e6 * entries;
+  }
 
  private:
   MUMPS_INT& control(int number) { return mumps_.icntl[number - 1]; }
@@ -94,12 +115,33 @@ class Lu::Factor {
   std::vector<MUMPS_INT> rows_, columns_;
 };
 
-Lu::Lu() : factor_(std::make_unique<Factor>()) {}
+class Lu::Small final : public Factor {
+ public:
+  void analyse(const Matrix& matrix) override { lu_.analyzePattern(matrix); }
+  bool factorize(const Matrix& matrix) override {
+    lu_.factorize(matrix);
+    return lu_.info() == Eigen::Success;
+  }
+  Eigen::VectorXd solve(const Eigen::VectorXd& b) override { return lu_.solve(b); }
+  double flops() const override {
+    return nonzeros() * nonzeros() / static_cast<double>(std::max<Eigen::Index>(lu_.rows(), 1));
+  }
+  double nonzeros() const override { return static_cast<double>(lu_.nnzL() + lu_.nnzU()); }
+
+ private:
+  Eigen::SparseLU<Matrix> lu_;
+};
+
+Lu::Lu() = default;
 Lu::~Lu() = default;
 Lu::Lu(Lu&&) noexcept = default;
 
-// MUMPS takes no empty matrix.
 void Lu::analyse(const Matrix& matrix) {
+  if (matrix.rows() > kSmall) {
+    factor_ = std::make_unique<Multifrontal>();
+  } else {
+    factor_ = std::make_unique<Small>();
+  }
   if (matrix.rows() > 0) factor_->analyse(matrix);
 }
 

@@ -6,10 +6,10 @@
 namespace conebench::solvers {
 
 /// Sparse LU of square matrices that share one, nearly symmetric, pattern: MUMPS, multifrontal
-/// (Amestoy, Duff, Koster, L'Excellent, SIAM J. Matrix Anal. Appl. 23(1) (2001), not checked),
-/// ordered for such a pattern, pivots preferably on the diagonal. On the systems of our Newton
-/// methods 2 to 3 times as fast as UMFPACK, its solves 4 times. Calls from several threads wait for
-/// one another: MUMPS is not made for them.
+/// (Amestoy, Duff, L'Excellent, Koster, SIAM J. Matrix Anal. Appl. 23(1) (2001), not checked),
+/// ordered for such a pattern, pivots preferably on the diagonal; up to 250 rows Eigen's SparseLU.
+/// On the systems of our Newton methods 2 to 3 times as fast as UMFPACK, its solves 4 times. Calls
+/// from several threads wait for one another: MUMPS is not made for them.
 class Lu {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
@@ -29,6 +29,8 @@ class Lu {
 
  private:
   class Factor;
+  class Multifrontal;
+  class Small;
   std::unique_ptr<Factor> factor_;
   double work_s_ = 0.0;
 };

@@ -2,10 +2,12 @@
 
 #include <Eigen/LU>
 #include <random>
+#include <thread>
 
 #include "problems/made_backwards.h"
 #include "solvers/linear/cholesky.h"
 #include "solvers/linear/gmres.h"
+#include "solvers/linear/lu.h"
 #include "solvers/linear/scaled_system.h"
 
 namespace conebench::solvers {
@@ -70,6 +72,105 @@ TEST(Cholesky, ReadsTheLowerTriangleOnly) {
   ASSERT_TRUE(cholesky.factorize(Cholesky::Matrix(4.0 * sparse)));  // the analysis serves again
   EXPECT_LE((4.0 * A * cholesky.solve(b) - b).norm(), 1e-10 * b.norm());
   EXPECT_FALSE(cholesky.factorize(Cholesky::Matrix(-1.0 * sparse)));
+}
+
+// Sparse, of nearly symmetric pattern: as many rows below kSmall of solvers/linear/lu.cpp as above.
+constexpr int kLuSizes[] = {1, 40, 400};
+
+Lu::Matrix banded(int size, std::uint64_t seed, double diagonal) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < size; ++row) {
+    for (const int column : {row - 20, row - 1, row, row + 1, row + 20}) {
+      if (column < 0 || column >= size) continue;
+      entries.emplace_back(row, column, uniform(random) + (row == column ? diagonal : 0.0));
+    }
+  }
+  Lu::Matrix A(size, size);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+TEST(Lu, SolvesAgainWithOtherValuesAfterOneAnalysis) {
+  for (const int size : kLuSizes) {
+    Lu lu;
+    lu.analyse(banded(size, 1, 5.0));
+    for (const std::uint64_t seed : {1, 2}) {
+      const Lu::Matrix A = banded(size, seed, 5.0);
+      ASSERT_TRUE(lu.factorize(A));
+      const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(size, 1.0, 2.0);
+      EXPECT_LE((A * lu.solve(b) - b).norm(), 1e-13 * b.norm()) << size;
+      EXPECT_GT(lu.work_s(), 0.0);
+    }
+  }
+}
+
+TEST(Lu, OfNothingSolvesNothing) {
+  Lu lu;
+  const Lu::Matrix empty(0, 0);
+  lu.analyse(empty);
+  EXPECT_TRUE(lu.factorize(empty));
+  EXPECT_EQ(lu.solve(Eigen::VectorXd()).size(), 0);
+}
+
+// Nothing on the diagonal: [0, A; I, 0].
+TEST(Lu, FindsPivotsAwayFromTheDiagonal) {
+  for (const int half : {20, 200}) {
+    const Lu::Matrix A = banded(half, 3, 5.0);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int j = 0; j < half; ++j) {
+      for (Lu::Matrix::InnerIterator it(A, j); it; ++it) {
+        entries.emplace_back(it.row(), half + j, it.value());
+      }
+      entries.emplace_back(half + j, j, 1.0);
+    }
+    Lu::Matrix whole(2 * half, 2 * half);
+    whole.setFromTriplets(entries.begin(), entries.end());
+    Lu lu;
+    lu.analyse(whole);
+    ASSERT_TRUE(lu.factorize(whole));
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(2 * half, 1.0, 2.0);
+    EXPECT_LE((whole * lu.solve(b) - b).norm(), 1e-12 * b.norm()) << half;
+  }
+}
+
+TEST(Lu, SaysSoWhenAMatrixIsSingular) {
+  for (const int size : kLuSizes) {
+    Lu::Matrix A = banded(size, 4, 5.0);
+    Lu lu;
+    lu.analyse(A);
+    for (int j = 0; j < size; ++j) {
+      for (Lu::Matrix::InnerIterator it(A, j); it; ++it) {
+        if (it.row() == size / 2) it.valueRef() = 0.0;
+      }
+    }
+    EXPECT_FALSE(lu.factorize(A)) << size;
+    const Lu::Matrix regular = banded(size, 4, 5.0);
+    EXPECT_TRUE(lu.factorize(regular));  // and goes on
+  }
+}
+
+TEST(Lu, ServesSeveralThreads) {
+  const int size = 400;
+  const Lu::Matrix A = banded(size, 5, 5.0);
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(size, 1.0, 2.0);
+  const auto solved = [&] {
+    Lu lu;
+    lu.analyse(A);
+    return lu.factorize(A) ? lu.solve(b) : Eigen::VectorXd();
+  };
+  const Eigen::VectorXd alone = solved();
+  std::vector<Eigen::VectorXd> together(4);
+  {
+    std::vector<std::jthread> threads;
+    for (Eigen::VectorXd& x : together) {
+      threads.emplace_back([&] {
+        for (int k = 0; k < 5; ++k) x = solved();
+      });
+    }
+  }
+  for (const Eigen::VectorXd& x : together) EXPECT_EQ(x, alone);
 }
 
 // (I + R C W R^T) y for random R and C_i = I + e_n c_i^T, or I.
