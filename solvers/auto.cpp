@@ -25,12 +25,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the work that the lane has done
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
 constexpr int kFirstAdmmSteps = 10;
-constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
-constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
-constexpr double kHesitation = 2.0;  // times what the lane's whole record promises, likewise;
-constexpr double kDoubt = 1.0;       // times the work done at least
-constexpr double kLooseTol = 1e-4;   // from here on
-constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
+constexpr int kPartialSweeps = 10;    // of Gauss-Seidel, between two full ones
+constexpr double kNoPromise = 4.0;    // times the work done, where a turn brought nothing
+constexpr double kHesitation = 2.0;   // times what the lane's whole record promises, likewise;
+constexpr double kDoubt = 1.0;        // times the work done at least
+constexpr double kEarlyDoubt = 30.0;  // times the work promised where the fall of eta says little
+constexpr double kLooseTol = 1e-4;    // from here on
+constexpr double kProgress = 0.9;     // less of a fall in eta is nothing
 
 // One method, its iterate and its record.
 struct Lane {
@@ -40,6 +41,7 @@ struct Lane {
   std::int64_t first_steps;  // of its first turn, at least
   std::int64_t usual_steps;  // of a run that succeeds without trouble
   double handover;           // a start is taken from others when better than its own by this factor
+  double believed = kInfinity;  // eta from which on its progress says when it will finish
 
   std::unique_ptr<Iteration> iteration{};
   double from = kInfinity;  // eta at its first start
@@ -68,23 +70,25 @@ struct Expectations {
   double gs_handover = 0.1;
   std::int64_t apgd_first = 100;
   double admm = kInfinity;  // never
+  double apgd_believed = kInfinity;
 };
 constexpr double kLooseAdmm = 1000.0;
-constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300};
+constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 3000.0, 12000.0, 300};
 // apgd solves the easy ones at once, and never the hard ones.
 constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .apgd = 0.0,
-                                    .prox_newton = 300.0,
+                                    .prox_newton = 2000.0,
                                     .newton_ac = 30000.0,
-                                    .ipm = 8000.0,
+                                    .ipm = 200.0,
                                     .aclm = 15000.0,
                                     .apgd_steps = 50,
-                                    .apgd_first = 50};
+                                    .apgd_first = 50,
+                                    .apgd_believed = 1e-3};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.
-constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300, 0.0};
+constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 200.0, 12000.0, 300, 0.0};
 // Where W is singular for sure, the last three need more and dearer factorisations.
 constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
-constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
+constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 700.0, 3000.0};
 
 Expectations expectations(const Problem& problem, double tol) {
   const bool loose = tol >= kLooseTol;
@@ -111,8 +115,8 @@ class Automatic final : public Iteration {
                         expected.gs, kFirstSweeps, 0, expected.gs_handover});
     }
     if (refuse_zero_delassus(problem)) return;
-    lanes_.push_back(
-        {"apgd", make_apgd, expected.apgd, expected.apgd_first, expected.apgd_steps, 0.0});
+    lanes_.push_back({"apgd", make_apgd, expected.apgd, expected.apgd_first, expected.apgd_steps,
+                      0.0, expected.apgd_believed});
     if (expected.admm < kInfinity) {
       lanes_.push_back({"admm", make_admm, expected.admm, kFirstAdmmSteps, 300, 0.0});
     }
@@ -216,6 +220,7 @@ class Automatic final : public Iteration {
       const double usual = static_cast<double>(lane.usual_steps) / static_cast<double>(lane.steps);
       lane.promise_s = std::min(lane.promise_s, (usual - 1.0) * lane.done_s);
     }
+    if (lane.eta > lane.believed) lane.promise_s *= kEarlyDoubt;
     return choose();
   }
 

@@ -25,9 +25,10 @@ namespace conebench::solvers {
 ///           its first turn, a number of sweeps of gs, larger for the last three where H has more
 ///           rows than columns, so that W is singular. The lane that promises least begins: apgd.
 ///           Where rows of H have more than 12 entries on average, so that cones are nodes of a
-///           grid, prox-newton is next, and all the others long after it, Gauss-Seidel later still
-///           in the plane (up to 24 entries); but for tol >= 1e-4 gs comes before it, from the
-///           guess.
+///           grid, ipm is next in the plane (up to 24 entries), prox-newton in space, and all the
+///           others long after them; for tol >= 1e-4 gs comes next, from the guess, and then ipm.
+///           In the plane what apgd promises above an eta of 1e-3, which it reaches quickly even
+///           where it never gets further, counts thirtyfold.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
@@ -37,10 +38,10 @@ namespace conebench::solvers {
 /// Evidence (results/published/auto.md): on hyperstatic piles Gauss-Seidel and apgd crawl where
 /// Newton with a proximal term finishes in some steps, on sphere packings the other way round, and
 /// nothing in the data tells them apart beforehand; progress does. apgd is the quickest of our
-/// methods on most problems of both engines, so that it begins; where it is not, Newton on grids,
-/// and at loose tolerances the sweeps, are. Aims at a small multiple of the best lane's time (1.3
-/// in geometric mean on 147 problems, 11 at worst); there is no proof. Own test (StopTest::kOwn)
-/// that of the lane, verified with eta.
+/// methods on most problems of both engines, so that it begins; where it is not, the interior point
+/// on plane grids, Newton on others, and at loose tolerances the sweeps, are. Aims at a small
+/// multiple of the best lane's time (1.3 in geometric mean, 11 at worst, on 94 problems); there is
+/// no proof. Own test (StopTest::kOwn) that of the lane, verified with eta.
 Method automatic();
 
 }  // namespace conebench::solvers

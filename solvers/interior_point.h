@@ -86,6 +86,7 @@ class InteriorPoint final : public ConvexIteration {
   Eigen::VectorXd posed_;      // t
   Eigen::VectorXd r_, x_, u_;  // x -> u + t e_n
   Direction direction_;        // the latest
+  int directions_ = 1;         // looked for in the latest advance()
   double nu_ = 0.0;            // r.x / cones
   double smoothing_share_ = 0.1;
   double smoothing_ = 0.0;  // largest eps

@@ -20,7 +20,7 @@ class Lu::Factor {
 
 namespace {
 
-constexpr double kSecondsPerFlop = 0.4e-9, kSecondsPerNonzero = 15e-9;
+constexpr double kSecondsPerFlop = 0.05e-9, kSecondsPerNonzero = 6e-9;
 
 // A call of MUMPS takes 40 us whatever the size, which up to here is more than it gains.
 constexpr Eigen::Index kSmall = 250;
