@@ -24,14 +24,15 @@ using problems::Problem;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kTurnGrowth = 0.5;  // a turn, as a share of the work that the lane has done
 constexpr int kFirstSweeps = 30;     // of Gauss-Seidel
+constexpr int kFirstApgdSteps = 100;
 constexpr int kFirstAdmmSteps = 10;
-constexpr int kPartialSweeps = 10;    // of Gauss-Seidel, between two full ones
-constexpr double kNoPromise = 4.0;    // times the work done, where a turn brought nothing
-constexpr double kHesitation = 2.0;   // times what the lane's whole record promises, likewise;
-constexpr double kDoubt = 1.0;        // times the work done at least
-constexpr double kEarlyDoubt = 30.0;  // times the work promised where the fall of eta says little
-constexpr double kLooseTol = 1e-4;    // from here on
-constexpr double kProgress = 0.9;     // less of a fall in eta is nothing
+constexpr int kPartialSweeps = 10;   // of Gauss-Seidel, between two full ones
+constexpr double kNoPromise = 4.0;   // times the work done, where a turn brought nothing
+constexpr double kHesitation = 2.0;  // times what the lane's whole record promises, likewise;
+constexpr double kDoubt = 1.0;       // times the work done at least
+constexpr double kEarlyDoubt = 5.0;  // times the work promised where the fall of eta says little
+constexpr double kLooseTol = 1e-4;   // from here on
+constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
 
 // One method, its iterate and its record.
 struct Lane {
@@ -63,17 +64,18 @@ std::optional<std::string> automatic_refuses(const Problem& problem) {
   return *zero + ", which only gs takes, and gs does not take this problem: " + *sweeps;
 }
 
-// Lane::first_promise of each, first and usual steps of apgd, Lane::handover of gs.
+// Lane::first_promise of each, usual steps of apgd and ipm, Lane::handover of gs, Lane::believed of
+// apgd.
 struct Expectations {
   double gs, apgd, prox_newton, newton_ac, ipm, aclm;
   std::int64_t apgd_steps = 1000;
   double gs_handover = 0.1;
-  std::int64_t apgd_first = 100;
   double admm = kInfinity;  // never
   double apgd_believed = kInfinity;
+  std::int64_t ipm_steps = 30;
 };
 constexpr double kLooseAdmm = 1000.0;
-constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 3000.0, 12000.0, 300};
+constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300};
 // apgd solves the easy ones at once, and never the hard ones.
 constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .apgd = 0.0,
@@ -82,13 +84,13 @@ constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .ipm = 200.0,
                                     .aclm = 15000.0,
                                     .apgd_steps = 50,
-                                    .apgd_first = 50,
-                                    .apgd_believed = 1e-3};
+                                    .apgd_believed = 1e-3,
+                                    .ipm_steps = 20};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.
 constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 200.0, 12000.0, 300, 0.0};
 // Where W is singular for sure, the last three need more and dearer factorisations.
 constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
-constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 700.0, 3000.0};
+constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
 
 Expectations expectations(const Problem& problem, double tol) {
   const bool loose = tol >= kLooseTol;
@@ -115,16 +117,16 @@ class Automatic final : public Iteration {
                         expected.gs, kFirstSweeps, 0, expected.gs_handover});
     }
     if (refuse_zero_delassus(problem)) return;
-    lanes_.push_back({"apgd", make_apgd, expected.apgd, expected.apgd_first, expected.apgd_steps,
-                      0.0, expected.apgd_believed});
+    lanes_.push_back({"apgd", make_apgd, expected.apgd, kFirstApgdSteps, expected.apgd_steps, 0.0,
+                      expected.apgd_believed});
     if (expected.admm < kInfinity) {
       lanes_.push_back({"admm", make_admm, expected.admm, kFirstAdmmSteps, 300, 0.0});
     }
     lanes_.push_back({"prox-newton", make_proximal_newton, expected.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
                       expected.newton_ac, 1, 60, 0.0});
-    lanes_.push_back(
-        {"ipm", [](const Problem& p) { return make_ipm(p); }, expected.ipm, 1, 30, 0.0});
+    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, expected.ipm, 1,
+                      expected.ipm_steps, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
                       expected.aclm, 1, 60, 0.1});
   }
