@@ -19,6 +19,7 @@
 namespace conebench::solvers {
 namespace {
 
+using problems::Cone;
 using problems::Problem;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -75,7 +76,7 @@ struct Expectations {
   std::int64_t ipm_steps = 30;
 };
 constexpr double kLooseAdmm = 1000.0;
-constexpr Expectations kOnGrid{6000.0, 0.0, 300.0, 15000.0, 10000.0, 12000.0, 300};
+constexpr Expectations kOnGrid{6000.0, 0.0, 3000.0, 15000.0, 1000.0, 12000.0, 300};
 // apgd solves the easy ones at once, and never the hard ones.
 constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .apgd = 0.0,
@@ -94,13 +95,15 @@ constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
 
 Expectations expectations(const Problem& problem, double tol) {
   const bool loose = tol >= kLooseTol;
-  // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have; in
-  // space twice as many as in the plane.
+  // Cones of a continuum touch the nodes of their cells, more dofs than two rigid bodies have;
+  // their stresses have three entries in the plane, six in space.
   const double entries =
       problem.is_primal() ? static_cast<double>(problem.H().nonZeros()) / problem.rows() : 0.0;
   if (entries > 12.0) {
     if (loose) return kLooselyOnGrid;
-    return entries > 24.0 ? kOnGrid : kOnPlaneGrid;
+    const bool in_space =
+        std::ranges::any_of(problem.cones(), [](const Cone& cone) { return cone.dim > 3; });
+    return in_space ? kOnGrid : kOnPlaneGrid;
   }
   const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
   Expectations expected = singular ? kSingular : kOtherwise;
