@@ -14,8 +14,8 @@ namespace conebench::solvers {
 /// Clock     the work counted by Iteration::work_s, not time: the same problem from the same guess
 ///           takes the same turns in every run.
 /// Turn      lasts until the lane has done half as much work again as before it (at least one
-///           iteration; the first one of apgd 100, of gs 30, of admm 10). Then
-///           eta of its iterate is computed, inside the clock.
+///           iteration; the first one of apgd 100, of gs 30, of admm 10). Then eta of its iterate
+///           is computed, inside the clock.
 /// Promise   a lane whose last turn of work t took ln(eta) down by g finishes within about
 ///           t ln(eta / tol) / g. One whose turn brought nothing promises twice what its whole
 ///           record promises by the same rule, 1 to 4 times the work done, so that lanes without
@@ -25,10 +25,10 @@ namespace conebench::solvers {
 ///           the rest; before its first turn, a number of sweeps of gs, larger for the last three
 ///           where H has more rows than columns, so that W is singular. The lane that promises
 ///           least begins: apgd. Where rows of H have more than 12 entries on average, so that
-///           cones are nodes of a grid, ipm is next in the plane (up to 24 entries), prox-newton in
-///           space, and all the others long after them; for tol >= 1e-4 gs comes next, from the
-///           guess, and then ipm. In the plane what apgd promises above an eta of 1e-3, which it
-///           reaches quickly even where it never gets further, counts fivefold.
+///           cones are nodes of a grid, ipm is next, then prox-newton, and all the others long
+///           after them; for tol >= 1e-4 gs comes before them, from the guess. In the plane (no
+///           cone of d > 3) what apgd promises above an eta of 1e-3, which it reaches quickly even
+///           where it never gets further, counts fivefold.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
@@ -39,9 +39,9 @@ namespace conebench::solvers {
 /// Newton with a proximal term finishes in some steps, on sphere packings the other way round, and
 /// nothing in the data tells them apart beforehand; progress does. apgd is the quickest of our
 /// methods on most problems of both engines, so that it begins; where it is not, the interior point
-/// on plane grids, Newton on others, and at loose tolerances the sweeps, are. Aims at a small
-/// multiple of the best lane's time (1.3 in geometric mean, 11 at worst, on 94 problems); there is
-/// no proof. Own test (StopTest::kOwn) that of the lane, verified with eta.
+/// on grids, a Newton method on others, and at loose tolerances the sweeps, are. Aims at a small
+/// multiple of the best lane's time; there is no proof. Own test (StopTest::kOwn) that of the lane,
+/// verified with eta.
 Method automatic();
 
 }  // namespace conebench::solvers
