@@ -88,7 +88,7 @@ constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .apgd_believed = 1e-3,
                                     .ipm_steps = 20};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.
-constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 200.0, 12000.0, 300, 0.0};
+constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 1200.0, 12000.0, 300, 0.0};
 // Where W is singular for sure, the last three need more and dearer factorisations.
 constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
 constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};

@@ -26,9 +26,9 @@ namespace conebench::solvers {
 ///           where H has more rows than columns, so that W is singular. The lane that promises
 ///           least begins: apgd. Where rows of H have more than 12 entries on average, so that
 ///           cones are nodes of a grid, ipm is next, then prox-newton, and all the others long
-///           after them; for tol >= 1e-4 gs comes before them, from the guess. In the plane (no
-///           cone of d > 3) what apgd promises above an eta of 1e-3, which it reaches quickly even
-///           where it never gets further, counts fivefold.
+///           after them; for tol >= 1e-4 gs, from the guess, then prox-newton, then ipm. In the
+///           plane (no cone of d > 3) what apgd promises above an eta of 1e-3, which it reaches
+///           quickly even where it never gets further, counts fivefold.
 /// Choice    the least promise takes the next turn. It starts again from the best iterate of all
 ///           lanes where that is 10 times better than its own (gs, prox-newton, aclm); never
 ///           newton-ac, whose path matters, ipm, which gains nothing from a start on the boundary,
