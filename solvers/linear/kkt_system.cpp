@@ -69,18 +69,10 @@ KktSystem::~KktSystem() = default;
 bool KktSystem::factorize(const BlockDiagonal& R) { return parts_->factorize(R); }
 
 // M v = H^T R^T y and R H v + y = z: the unknowns are (v, -y).
-Eigen::VectorXd KktSystem::solve_both(const Eigen::VectorXd& z) const {
+Eigen::VectorXd KktSystem::solve(const Eigen::VectorXd& z) const {
   Eigen::VectorXd whole = Eigen::VectorXd::Zero(parts_->matrix.rows());
   whole.tail(z.size()) = z;
-  return parts_->factor.solve(whole);
-}
-
-Eigen::VectorXd KktSystem::solve(const Eigen::VectorXd& z) const {
-  return -solve_both(z).tail(z.size());
-}
-
-Eigen::VectorXd KktSystem::solve_rate(const Eigen::VectorXd& z) const {
-  return parts_->problem.H() * solve_both(z).head(parts_->problem.dofs());
+  return -Eigen::VectorXd(parts_->factor.solve(whole)).tail(z.size());
 }
 
 double KktSystem::work_s() const {

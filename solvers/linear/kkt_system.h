@@ -16,8 +16,6 @@ class KktSystem {
   /// False when the factorisation fails.
   bool factorize(const BlockDiagonal& R);
   Eigen::VectorXd solve(const Eigen::VectorXd& z) const;
-  /// W R^T y of that y.
-  Eigen::VectorXd solve_rate(const Eigen::VectorXd& z) const;
 
   /// Of factorize() and a few solve() (Iteration::work_s); 0 before the first.
   double work_s() const;
@@ -26,8 +24,6 @@ class KktSystem {
   static std::int64_t nonzeros(const problems::Problem& problem);
 
  private:
-  Eigen::VectorXd solve_both(const Eigen::VectorXd& z) const;
-
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
