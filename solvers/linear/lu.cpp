@@ -3,6 +3,7 @@
 #include <dmumps_c.h>
 
 #include <Eigen/SparseLU>
+#include <algorithm>
 #include <mutex>
 #include <vector>
 

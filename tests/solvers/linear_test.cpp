@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <limits>
 #include <random>
 #include <thread>
 
@@ -48,7 +49,6 @@ TEST(Gmres, KeepsToItsLimitsAndTakesTheEasyCasesAtOnce) {
   EXPECT_EQ(gmres(same, Eigen::VectorXd::Zero(3), 1e-14, 40).x, Eigen::VectorXd::Zero(3));
 }
 
-// Only the lower triangle counts, whatever stands above it, in any order of the unknowns.
 TEST(Cholesky, OfNothingSolvesNothing) {
   Cholesky cholesky;
   const Cholesky::Matrix empty(0, 0);
@@ -57,6 +57,7 @@ TEST(Cholesky, OfNothingSolvesNothing) {
   EXPECT_EQ(cholesky.solve(Eigen::VectorXd()).size(), 0);
 }
 
+// Only the lower triangle counts, whatever stands above it, in any order of the unknowns.
 TEST(Cholesky, ReadsTheLowerTriangleOnly) {
   constexpr int kSize = 30;
   const Eigen::MatrixXd B = random_matrix(kSize, 5);
@@ -74,9 +75,10 @@ TEST(Cholesky, ReadsTheLowerTriangleOnly) {
   EXPECT_FALSE(cholesky.factorize(Cholesky::Matrix(-1.0 * sparse)));
 }
 
-// Sparse, of nearly symmetric pattern: as many rows below kSmall of solvers/linear/lu.cpp as above.
+// On either side of kSmall in solvers/linear/lu.cpp.
 constexpr int kLuSizes[] = {1, 40, 400};
 
+// Sparse, of symmetric pattern.
 Lu::Matrix banded(int size, std::uint64_t seed, double diagonal) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -148,6 +150,21 @@ TEST(Lu, SaysSoWhenAMatrixIsSingular) {
     EXPECT_FALSE(lu.factorize(A)) << size;
     const Lu::Matrix regular = banded(size, 4, 5.0);
     EXPECT_TRUE(lu.factorize(regular));  // and goes on
+  }
+}
+
+// Whatever it says of such a matrix, it comes back, and serves the next one.
+TEST(Lu, SurvivesNan) {
+  for (const int size : kLuSizes) {
+    const Lu::Matrix A = banded(size, 4, 5.0);
+    Lu lu;
+    lu.analyse(A);
+    Lu::Matrix bad = A;
+    bad.coeffRef(size / 2, size / 2) = std::numeric_limits<double>::quiet_NaN();
+    lu.factorize(bad);
+    ASSERT_TRUE(lu.factorize(A));
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(size, 1.0, 2.0);
+    EXPECT_LE((A * lu.solve(b) - b).norm(), 1e-13 * b.norm()) << size;
   }
 }
 
