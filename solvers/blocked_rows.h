@@ -91,6 +91,17 @@ struct RunProducts {
     }
   }
 
+  /// The first row of B_i times y; dim is the cone's dimension.
+  static double normal_rate(const BlockedRows& rows, int i, int dim, const double* y) {
+    const double* block = rows.blocks(i);
+    double sum = 0.0;
+    for (const int run : rows.runs(i)) {
+      for (int k = 0; k < L; ++k) sum += block[k] * y[run + k];
+      block += dim * L;
+    }
+    return sum;
+  }
+
   /// y += B_i^T x.
   template <class Vector>
   static void add_reaction(const BlockedRows& rows, int i, const Vector& x, double* y) {
@@ -150,6 +161,16 @@ struct SphereProducts {
       u(1) += along(1, v) + along(2, omega);
       u(2) += along(2, v) - along(1, omega);
     }
+  }
+
+  static double normal_rate(const BlockedRows& rows, int i, int /*dim*/, const double* y) {
+    const double *n = rows.blocks(i), *scales = n + 9;
+    double sum = 0.0;
+    for (const int run : rows.runs(i)) {
+      sum += scales[0] * (n[0] * y[run] + n[1] * y[run + 1] + n[2] * y[run + 2]);
+      scales += 2;
+    }
+    return sum;
   }
 
   template <class Vector>
@@ -226,6 +247,17 @@ class BlockedDelassus {
       }
       block += u.size() * entry.dim;
     }
+  }
+
+  /// The first row of W of cone i times r; dim is the cone's dimension.
+  double normal_rate(int i, int dim, const Eigen::VectorXd& r) const {
+    const double* block = blocks(i);
+    double sum = 0.0;
+    for (const Entry& entry : entries(i)) {
+      for (int k = 0; k < entry.dim; ++k) sum += block[k] * r(entry.row + k);
+      block += dim * entry.dim;
+    }
+    return sum;
   }
 
   /// Numbers in all blocks.

@@ -34,6 +34,8 @@ struct GaussSeidelSettings {
 ///         projected step, r_i <- P_K(r_i - u_hat_i / lambda_i). newton-ac, newton-fb: semismooth
 ///         Newton from the current r_i; where it fails its best iterate is taken, and counted in
 ///         the notes. quartic: enumeration, cones of d = 1 and d = 3 with theta = mu only.
+///         Where r_i = 0, theta = mu and u_n >= 0 exact asks no more than u_n of a cone: it stays
+///         open.
 /// Forms   velocity: mass-scaled velocities are updated in place; a cone costs its few bodies or
 ///         nodes. Needs a block-diagonal M. delassus: rows of W times r. auto takes the first that
 ///         is possible.

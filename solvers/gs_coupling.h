@@ -9,6 +9,7 @@ namespace conebench::solvers {
 ///   refresh(r)        brings the state to reactions r, without the rounding gathered so far
 ///   diagonal_block(i) W_ii
 ///   rate(i, at, u)    u_i at the current state; `at` is the cone's first row
+///   normal_rate(i, at, dim)  its first entry alone, for much less
 ///   moved(i, change)  r_i has moved by `change`
 ///
 /// with u and change of fixed or dynamic size.
@@ -27,6 +28,10 @@ class VelocityCoupling {
 
   Eigen::MatrixXd diagonal_block(int i) const {
     return rows_.diagonal_block(i, problem_.cones()[static_cast<std::size_t>(i)].dim);
+  }
+
+  double normal_rate(int i, int at, int dim) const {
+    return problem_.w()(at) + Products::normal_rate(rows_, i, dim, y_.data());
   }
 
   template <class Vector>
@@ -58,6 +63,10 @@ class DelassusCoupling {
   void refresh(const Eigen::VectorXd& r) { r_ = r; }
 
   Eigen::MatrixXd diagonal_block(int i) const { return W_.diagonal_block(problem_, i); }
+
+  double normal_rate(int i, int at, int dim) const {
+    return problem_.q()(at) + W_.normal_rate(i, dim, r_);
+  }
 
   template <class Vector>
   void rate(int i, int at, Vector& u) const {

@@ -105,9 +105,11 @@ class Sweeper {
     const int at = problem_.start(i), dim = cone(i).dim;
     const double lambda = problem_.mobility()(i);
     auto ri = r.template segment<D>(at, dim);
+    auto& local = std::get<std::vector<OneCone<D>>>(locals_)[slot_[static_cast<std::size_t>(i)]];
+    if ((ri.array() == 0.0).all() && local.stays_open(coupling_.normal_rate(i, at, dim)))
+      return 0.0;
     Vector u(dim), next = ri;
     coupling_.rate(i, at, u);
-    auto& local = std::get<std::vector<OneCone<D>>>(locals_)[slot_[static_cast<std::size_t>(i)]];
     const LocalOutcome outcome = local.solve(u, next);
     if (outcome != LocalOutcome::kDone) note(i, outcome, size.failures);
     if (omega_ != 1.0 && outcome != LocalOutcome::kNoSolution) {

@@ -55,6 +55,10 @@ class ProximalCoupling {
     return block;
   }
 
+  double normal_rate(int i, int at, int dim) const {
+    return coupling_.normal_rate(i, at, dim) + alpha_ * problem_.mobility()(i) * away_(at);
+  }
+
   template <class Vector>
   void rate(int i, int at, Vector& u) const {
     coupling_.rate(i, at, u);

@@ -1,10 +1,11 @@
 // One sweep of Gauss-Seidel in velocity form on packed spheres, or on problems from files whose
 // cones have d = 3, beside its floor: max(bytes that a sweep must move / bandwidth at that working
-// set, time of its local solves).
+// set, time of its arithmetic). The arithmetic, local solves and products with H, is timed at the
+// last iterate, where no cone waits for another.
 //
 //   build/sweep_benchmark [FILE...]
 //
-// All three are measured in the same run, since machines are noisy: compare them as ratios.
+// All are measured in the same run, since machines are noisy: compare them as ratios.
 
 #include <benchmark/benchmark.h>
 
@@ -122,6 +123,34 @@ double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
   return best / problem.cone_count();
 }
 
+// The sweep's products with H at r, each cone's own, waiting for no other: best time per cone. [s]
+double product_time(const Problem& problem, const Eigen::VectorXd& r) {
+  const BlockedRows rows(problem);
+  const Eigen::VectorXd y = rows.scaled_velocity(problem, r);
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(y.size());
+  double best = 1e9;
+  with_products(rows, [&]<class Products>() {
+    for (int repetition = 0; repetition < 7; ++repetition) {
+      best = std::min(best, seconds_of([&] {
+                        for (int i = 0; i < problem.cone_count(); ++i) {
+                          const int at = problem.start(i);
+                          if (r.segment<3>(at).isZero(0.0)) {
+                            benchmark::DoNotOptimize(Products::normal_rate(rows, i, 3, y.data()));
+                            continue;
+                          }
+                          Eigen::Vector3d u = problem.w().segment<3>(at);
+                          Products::add_rate(rows, i, y.data(), u);
+                          benchmark::DoNotOptimize(u.data());
+                          const Eigen::Vector3d change = r.segment<3>(at);
+                          Products::add_reaction(rows, i, change, moved.data());
+                        }
+                      }));
+    }
+  });
+  benchmark::DoNotOptimize(moved.data());
+  return best / problem.cone_count();
+}
+
 void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
   const Solver solver = make_solver("gs[form=velocity]");
   const auto sweeps = std::max<std::int64_t>(10, 2'000'000 / std::max(1, problem.cone_count()));
@@ -138,12 +167,14 @@ void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorX
   const auto bytes = static_cast<double>(gauss_seidel_sweep_bytes(problem));
   const double moved = bytes / read_bandwidth(static_cast<std::size_t>(bytes)) / cones;
   const double local = local_solve_time(problem, result.r);
+  const double products = product_time(problem, result.r);
   state.counters["cones"] = cones;
   state.counters["ns_per_cone"] = 1e9 * best / cones;
   state.counters["bytes_per_cone"] = bytes / cones;
   state.counters["ns_bytes"] = 1e9 * moved;
   state.counters["ns_local"] = 1e9 * local;
-  state.counters["times_floor"] = best / cones / std::max(moved, local);
+  state.counters["ns_products"] = 1e9 * products;
+  state.counters["times_floor"] = best / cones / std::max(moved, local + products);
 }
 
 void sweep_file(benchmark::State& state, const std::string& path) {

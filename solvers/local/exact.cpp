@@ -74,6 +74,11 @@ void ExactLocal<D>::set(const Matrix& W, double lambda, double mu, double theta)
   diagonalise(S, s_, Q_);
   for (double& value : s_) value = value > kZeroEigenvalue * lambda ? value : 0.0;
   w_ = (Q_.transpose() * w_).eval();
+  isotropic_ = 0.0;
+  if (tangents == 0 || theta != mu || mu == 0.0 || Wnn_ == 0.0) return;
+  const double rounding = kZeroEigenvalue * lambda;
+  if (Wnn_ * w_.norm() > rounding || s_.maxCoeff() - s_.minCoeff() > rounding) return;
+  isotropic_ = s_.mean();
 }
 
 // W = L diag(W_nn, S) L^T with |L^-1|^2 <= 2 (1 + |w|^2).
@@ -126,22 +131,26 @@ bool ExactLocal<D>::slide_coulomb(const Reduced& p, double& a, Tangent& rt, doub
   if (Wnn_ == 0.0) return false;
   const double b_size = p.b.norm();
   if (!(b_size > 0.0)) return false;
-  // psi and its derivative; leaves r_t(a) and r_n(a) behind.
+  // psi and its derivative; leaves r_t(a), its derivative and 1 / |r_t| behind.
+  Tangent rt_slope = p.b;
+  double inverse_size = 0.0;
   auto psi = [&](double x, double* slope) {
-    double square = 0.0, square_slope = 0.0, rn_slope = 0.0;
-    rn = p.push;
+    double square = 0.0, square_slope = 0.0, normal = p.push, normal_slope = 0.0;
     for (Eigen::Index k = 0; k < s_.size(); ++k) {
       const double inverse = p.b(k) == 0.0 ? 0.0 : 1.0 / (s_(k) + x);
       rt(k) = -p.b(k) * inverse;
-      const double step = rt(k) * inverse;  // -d r_t / da
-      rn -= w_(k) * rt(k);
-      rn_slope += w_(k) * step;
+      rt_slope(k) = -rt(k) * inverse;
+      normal -= w_(k) * rt(k);
+      normal_slope -= w_(k) * rt_slope(k);
       square += rt(k) * rt(k);
-      square_slope -= rt(k) * step;
+      square_slope += rt(k) * rt_slope(k);
     }
-    const double size = std::sqrt(square);
-    if (slope) *slope = mu_ * (rn_slope - rn * square_slope / square) / size;
-    return mu_ * rn / size - 1.0;
+    inverse_size = 1.0 / std::sqrt(square);
+    const double scale = mu_ * inverse_size;
+    if (slope) {
+      *slope = scale * (normal_slope - normal * square_slope * inverse_size * inverse_size);
+    }
+    return scale * normal - 1.0;
   };
 
   // |r_t| = mu r_n >= mu (push - |w||r_t|) bounds |r_t| from below and so a from above.
@@ -168,9 +177,11 @@ bool ExactLocal<D>::slide_coulomb(const Reduced& p, double& a, Tangent& rt, doub
     const double value = psi(x, &slope);
     (value < 0.0 ? low : high) = x;
     const double step = -value / slope;
-    if (std::abs(step) <= kQuadratic * x) {
-      x += step;
-      break;
+    if (std::abs(step) <= kQuadratic * x) {  // r_t likewise to first order
+      a = x + step;
+      rt += step * rt_slope;
+      rn = rt.norm() / mu_;
+      return true;
     }
     x = x + step > low && x + step < high ? x + step : 0.5 * (low + high);
     if (high - low <= 1e-15 * high) break;
@@ -241,6 +252,22 @@ bool ExactLocal<D>::slide_dilating(const Reduced& p, double& a, Tangent& rt, dou
   return true;
 }
 
+// r_n = -q_n / W_nn, and r_t = -q_t / s cut to mu r_n.
+template <int D>
+LocalCase ExactLocal<D>::solve_isotropic(const Vector& q, Vector& r) const {
+  const Eigen::Index tangents = q.size() - 1;
+  const auto qt = q.template segment<kTangents>(1, tangents);
+  const double rn = -q(0) / Wnn_, largest = mu_ * rn;
+  const double square = qt.squaredNorm();
+  const bool sticks = square <= isotropic_ * isotropic_ * largest * largest;
+  const double scale = sticks ? 1.0 / isotropic_ : largest / std::sqrt(square);
+  Vector answer(tangents + 1);
+  answer(0) = rn;
+  for (Eigen::Index k = 1; k <= tangents; ++k) answer(k) = -scale * q(k);
+  r = answer;
+  return sticks ? LocalCase::kStick : LocalCase::kSlide;
+}
+
 template <int D>
 LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) const {
   const Eigen::Index tangents = q.size() - 1;
@@ -252,6 +279,7 @@ LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) c
     r.setZero();
     return LocalCase::kOpen;
   }
+  if (isotropic_ > 0.0) return solve_isotropic(q, r);
   if (mu_ == 0.0 || tangents == 0) {
     if (Wnn_ == 0.0) return LocalCase::kNoSolution;
     r.setZero();

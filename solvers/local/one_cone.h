@@ -41,6 +41,12 @@ class OneCone {
   OneCone(LocalKind kind, const Matrix& Wii, double lambda, const problems::Cone& cone,
           double regularization);
 
+  /// Whether r_i = 0 stays the answer whatever the tangential rates, where the normal one is un.
+  bool stays_open(double un) const {
+    const auto* exact = std::get_if<Exact>(&local_);
+    return un >= 0.0 && exact && exact->solver.opens_by_normal();
+  }
+
   /// Replaces r_i by the answer for u_i, the rate at r_i: the problem of B and q = u_i - B r_i.
   LocalOutcome solve(const Vector& u, Vector& r) {
     if (auto* exact = std::get_if<Exact>(&local_)) return exact->solve(u, r);  // inlined in sweeps

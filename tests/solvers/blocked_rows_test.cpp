@@ -97,10 +97,9 @@ TEST(BlockedRows, OfSpheresAreAThird) {
 
 // A reaction moved in Gauss-Seidel changes every rate by W's column, in vectors of either kind.
 template <class Vector>
-void expect_felt() {
-  const Problem problem = spheres(30, {});
+void expect_felt(const Problem& problem, bool velocity) {
   Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.rows(), -1.0, 2.0);
-  with_coupling(problem, true, [&](auto coupling) {
+  with_coupling(problem, velocity, [&](auto coupling) {
     coupling.refresh(r);
     const Vector change = Eigen::Vector3d(0.3, -0.2, 0.5);
     coupling.moved(11, change);
@@ -110,14 +109,21 @@ void expect_felt() {
       Vector u(3);
       coupling.rate(i, problem.start(i), u);
       EXPECT_LE((u - expected.segment<3>(problem.start(i))).norm(), 1e-14 * expected.norm()) << i;
+      const double normal = coupling.normal_rate(i, problem.start(i), 3);
+      EXPECT_NEAR(normal, expected(problem.start(i)), 1e-14 * expected.norm()) << i;
     }
     return 0;
   });
 }
 
-TEST(BlockedRows, OfSpheresFeelWhatMoves) {
-  expect_felt<Eigen::Vector3d>();
-  expect_felt<Eigen::VectorXd>();
+TEST(BlockedRows, FeelWhatMoves) {
+  for (const Flaw& flaw : {Flaw{}, Flaw{.arm = 1e-2}}) {
+    const Problem problem = spheres(30, flaw);
+    for (const bool velocity : {true, false}) {
+      expect_felt<Eigen::Vector3d>(problem, velocity);
+      expect_felt<Eigen::VectorXd>(problem, velocity);
+    }
+  }
 }
 
 TEST(BlockedRows, TakeNothingElseForSpheres) {

@@ -76,6 +76,43 @@ TEST(ExactLocal, SolvesSingularBlocksOrIsProvedRightThatItCannot) {
   }
 }
 
+// W = diag(W_nn, s I), as between spheres, has a closed form; turned away from it by 1e-13, not.
+template <int D>
+void expect_isotropic_solved(int d) {
+  using Vector = typename ExactLocal<D>::Vector;
+  std::mt19937_64 random(static_cast<std::uint64_t>(d));
+  std::uniform_real_distribution<double> uniform(0.1, 2.0);
+  int sliding = 0, sticking = 0;
+  for (int k = 0; k < 1000; ++k) {
+    Eigen::MatrixXd W = uniform(random) * Eigen::MatrixXd::Identity(d, d);
+    W(0, 0) = uniform(random);
+    const Vector q = random_rate(random, W, Conditioning::kGood);
+    const double lambda = largest_eigenvalue(W), mu = uniform(random);
+    ExactLocal<D> closed, iterated;
+    closed.set(W, lambda, mu, mu);
+    W(0, 1) += 1e-13;
+    W(1, 0) += 1e-13;
+    iterated.set(W, lambda, mu, mu);
+    Vector r = q, other = q;
+    double a = 0.0;
+    const LocalCase found = closed.solve(q, r, a);
+    ASSERT_EQ(found, iterated.solve(q, other, a));
+    EXPECT_LE((r - other).norm(), 1e-10 * (1.0 + r.norm()));
+    EXPECT_LE(backward_residual(W, q, mu, mu, r), 1e-12);
+    sliding += found == LocalCase::kSlide;
+    sticking += found == LocalCase::kStick;
+  }
+  EXPECT_GT(sliding, 50);
+  EXPECT_GT(sticking, 50);
+}
+
+TEST(ExactLocal, IsotropicBlocksAreCutBackToTheCone) {
+  expect_isotropic_solved<2>(2);
+  expect_isotropic_solved<3>(3);
+  expect_isotropic_solved<6>(6);
+  expect_isotropic_solved<Eigen::Dynamic>(4);
+}
+
 // q_n just short of (mu - theta)|q_t|: a slide so small that rounding cannot tell it from opening.
 TEST(ExactLocal, SolvesWhatIsOpenUpToRounding) {
   std::mt19937_64 random(3);
