@@ -4,6 +4,7 @@
 
 #include "solvers/colouring.h"
 #include "solvers/gs_sweeper.h"
+#include "solvers/work_shares.h"
 
 namespace conebench::solvers {
 
@@ -14,21 +15,29 @@ class ColouredSweep {
  public:
   /// `threads` 0: as many as OpenMP has been told to use.
   ColouredSweep(const problems::Problem& problem, const Coupling& coupling, int threads)
-      : colouring_(problem, coupling), threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+      : colouring_(problem, coupling),
+        threads_(threads > 0 ? threads : omp_get_max_threads()),
+        shares_(threads_) {}
 
   SweepSize sweep(Sweeper<Coupling>& sweeper, Eigen::VectorXd& r) {
-    const LevelsForOne levels;
     SweepSize size;
+    if (colouring_.parallel().empty()) {
+      for (const int i : colouring_.serial()) sweeper.visit(i, r, size);
+      return size;
+    }
+    const LevelsForOne levels;
 #pragma omp parallel num_threads(threads_)
     {
       SweepSize mine;
+      const int thread = omp_get_thread_num();
       for (const Colouring::Colour& colour : colouring_.parallel()) {
-#pragma omp for schedule(static)
-        for (int s = 0; s < colour.stretches(); ++s) {
+        shares_.deal(thread, colour.count());
+        for (int s = shares_.take(thread); s >= 0; s = shares_.take(thread)) {
           for (const int i : colour.stretch(s)) sweeper.visit(i, r, mine);
         }
+#pragma omp barrier
       }
-#pragma omp single
+#pragma omp master
       for (const int i : colouring_.serial()) sweeper.visit(i, r, mine);
 #pragma omp critical
       size.add(mine);
@@ -51,6 +60,7 @@ class ColouredSweep {
 
   Colouring colouring_;
   int threads_;
+  WorkShares shares_;
 };
 
 }  // namespace conebench::solvers

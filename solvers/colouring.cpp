@@ -3,156 +3,194 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 namespace conebench::solvers {
+
+// The places that each cone touches: two cones clash where they share one.
+struct Colouring::Footprints {
+  std::vector<std::size_t> begin{0};  // of cone i in `place`
+  std::vector<int> place{};
+  std::size_t places = 0;
+
+  std::span<const int> of(int cone) const {
+    const auto i = static_cast<std::size_t>(cone);
+    return std::span(place).subspan(begin[i], begin[i + 1] - begin[i]);
+  }
+};
+
 namespace {
 
-// Sets of colours, 64 to a word; as long as its largest member needs.
-class ColourSet {
- public:
-  void clear() { words_.clear(); }
-  void insert(int colour) {
-    const auto word = static_cast<std::size_t>(colour) / 64;
-    if (word >= words_.size()) words_.resize(word + 1, 0);
-    words_[word] |= std::uint64_t{1} << (colour % 64);
-  }
-  void insert(const ColourSet& other) {
-    if (other.words_.size() > words_.size()) words_.resize(other.words_.size(), 0);
-    for (std::size_t k = 0; k < other.words_.size(); ++k) words_[k] |= other.words_[k];
-  }
-  int first_missing() const {
-    for (std::size_t k = 0; k < words_.size(); ++k) {
-      const int ones = std::countr_one(words_[k]);
-      if (ones < 64) return static_cast<int>(64 * k) + ones;
-    }
-    return static_cast<int>(64 * words_.size());
-  }
-
- private:
-  std::vector<std::uint64_t> words_;
-};
-
-// At least so many stretches in all, to begin with.
-constexpr std::size_t kFirstStretches = 256;
+constexpr int kMostSlabs = 128;
+constexpr std::size_t kLongestPiece = 256;
+constexpr int kStretchStart = 20;  // a stretch costs as many cones more, at most its own number
+// Slabs that take so much longer than the work evenly divided are weighed against pieces.
+constexpr double kWellDivided = 1.3;
 
 struct Arrangement {
-  std::vector<Colouring::Colour> parallel;
-  std::vector<int> left;
+  std::vector<Stretches> parallel{};
+  std::vector<int> left{};
+  double cost = 0.0;  // cones solved in sequence, and what goes with them
 };
 
-Arrangement arranged(const std::vector<int>& cones, std::size_t length,
-                     const std::vector<int>& colour) {
-  std::vector<Colouring::Colour> all(static_cast<std::size_t>(*std::ranges::max_element(colour)) +
-                                     1);
-  for (std::size_t s = 0; s < colour.size(); ++s) {
-    Colouring::Colour& mine = all[static_cast<std::size_t>(colour[s])];
-    const auto first = cones.begin() + static_cast<std::ptrdiff_t>(s * length);
-    const auto count = std::min(length, cones.size() - s * length);
-    mine.cones.insert(mine.cones.end(), first, first + static_cast<std::ptrdiff_t>(count));
-    mine.begin.push_back(static_cast<int>(mine.cones.size()));
+template <class Footprints>
+Stretches slabs(const std::vector<int>& cones, int count, const Footprints& footprints) {
+  std::vector<int> owner(footprints.places, -1);
+  Stretches all;
+  std::vector<std::vector<int>> cuts(static_cast<std::size_t>(count));
+  for (std::size_t s = 0; s < cuts.size(); ++s) {
+    const auto mine = static_cast<int>(s);
+    for (std::size_t k = s * cones.size() / cuts.size(); k < (s + 1) * cones.size() / cuts.size();
+         ++k) {
+      const auto touched = footprints.of(cones[k]);
+      const bool inside = std::ranges::all_of(touched, [&](int place) {
+        const int by = owner[static_cast<std::size_t>(place)];
+        return by < 0 || by == mine;
+      });
+      (inside ? all.cones : cuts[s]).push_back(cones[k]);
+      if (!inside) continue;
+      for (const int place : touched) owner[static_cast<std::size_t>(place)] = mine;
+    }
+    all.close();
   }
+  for (const std::vector<int>& cut : cuts) {
+    all.cones.insert(all.cones.end(), cut.begin(), cut.end());
+    all.close();
+  }
+  return all;
+}
+
+Stretches pieces(const std::vector<int>& cones, std::size_t length) {
+  Stretches all{.cones = cones};
+  for (std::size_t end = length; end < cones.size(); end += length) {
+    all.begin.push_back(static_cast<int>(end));
+  }
+  all.begin.push_back(static_cast<int>(cones.size()));
+  return all;
+}
+
+// Cones in sequence where `threads` take one stretch after another: their share, and half of what
+// the longest stretch may add (Graham's bound), since nobody knows what each cone will cost.
+double in_sequence(const Stretches& stretches, int threads) {
+  int longest = 0, all = 0;
+  for (int s = 0; s < stretches.count(); ++s) {
+    const auto length = static_cast<int>(stretches.stretch(s).size());
+    longest = std::max(longest, length);
+    all += length + std::min(length, kStretchStart);
+  }
+  return std::max(1.0 * all / threads + 0.5 * longest * (1.0 - 1.0 / threads), 1.0 * longest);
+}
+
+// First fit; what finds none of 64 colours is left.
+template <class Footprints>
+Arrangement arranged(const Stretches& stretches, const Footprints& footprints) {
+  std::vector<std::uint64_t> taken(footprints.places, 0);
+  std::vector<Stretches> colours;
   Arrangement out;
-  for (Colouring::Colour& mine : all) {
-    if (mine.cones.size() >= Colouring::kLeastParallel &&
-        mine.stretches() >= Colouring::kLeastStretches) {
-      out.parallel.push_back(std::move(mine));
+  for (int s = 0; s < stretches.count(); ++s) {
+    const auto cones = stretches.stretch(s);
+    std::uint64_t known = 0;
+    for (const int i : cones) {
+      for (const int place : footprints.of(i)) known |= taken[static_cast<std::size_t>(place)];
+    }
+    const auto first = static_cast<std::size_t>(std::countr_one(known));
+    if (first == 64) {
+      out.left.insert(out.left.end(), cones.begin(), cones.end());
+      continue;
+    }
+    for (const int i : cones) {
+      for (const int place : footprints.of(i)) {
+        taken[static_cast<std::size_t>(place)] |= std::uint64_t{1} << first;
+      }
+    }
+    if (first >= colours.size()) colours.resize(first + 1);
+    colours[first].cones.insert(colours[first].cones.end(), cones.begin(), cones.end());
+    colours[first].close();
+  }
+  for (Stretches& colour : colours) {
+    const double together = Colouring::kBarrier + in_sequence(colour, Colouring::kThreads);
+    if (together < static_cast<double>(colour.cones.size())) {
+      out.cost += together;
+      out.parallel.push_back(std::move(colour));
     } else {
-      out.left.insert(out.left.end(), mine.cones.begin(), mine.cones.end());
+      out.left.insert(out.left.end(), colour.cones.begin(), colour.cones.end());
     }
   }
+  out.cost += static_cast<double>(out.left.size());
   return out;
 }
 
 }  // namespace
 
-template <class Colours>
-void Colouring::cut(const std::vector<int>& regular, const Colours& colours) {
+void Colouring::arrange(const std::vector<int>& regular, const Footprints& footprints) {
   if (regular.empty()) return;
-  std::size_t length =
-      std::clamp(regular.size() / kFirstStretches, std::size_t{1}, std::size_t{kLongest});
-  Arrangement best = arranged(regular, length, colours(length));
-  const auto enough = kMostSerial * static_cast<double>(regular.size());
-  while (length > 1 && static_cast<double>(best.left.size()) > enough) {
-    length /= 2;
-    Arrangement next = arranged(regular, length, colours(length));
-    if (next.left.size() < best.left.size()) best = std::move(next);
+  const auto count = static_cast<double>(regular.size());
+  Arrangement best{.left = regular, .cost = count};
+  const auto consider = [&](const Stretches& stretches) {
+    Arrangement next = arranged(stretches, footprints);
+    if (next.cost < best.cost) best = std::move(next);
+  };
+  for (int s = kThreads; s <= kMostSlabs; s *= 2) consider(slabs(regular, s, footprints));
+  if (best.cost > kWellDivided * count / kThreads) {
+    for (std::size_t length = kLongestPiece; length > 0; length /= 2) {
+      if (length < regular.size()) consider(pieces(regular, length));
+    }
   }
   parallel_ = std::move(best.parallel);
   serial_.insert(serial_.end(), best.left.begin(), best.left.end());
 }
 
 Colouring::Colouring(const problems::Problem& problem, const DelassusCoupling& coupling) {
+  const int cones = problem.cone_count();
   std::vector<int> cone_of_row(static_cast<std::size_t>(problem.rows()), -1);
   std::vector<int> regular;
-  for (int i = 0; i < problem.cone_count(); ++i) {
+  for (int i = 0; i < cones; ++i) {
     cone_of_row[static_cast<std::size_t>(problem.start(i))] = i;
     (coupling.blocks().entries(i).size() > kHub ? serial_ : regular).push_back(i);
   }
-  std::vector<int> place(static_cast<std::size_t>(problem.cone_count()), -1);  // in regular
-  for (std::size_t k = 0; k < regular.size(); ++k) {
-    place[static_cast<std::size_t>(regular[k])] = static_cast<int>(k);
-  }
-  cut(regular, [&](std::size_t length) {
-    std::vector<int> colour;
-    std::vector<ColourSet> taken((regular.size() + length - 1) / length);  // of each stretch
-    for (std::size_t k = 0; k < regular.size(); k += length) {
-      const auto stretch = std::span(regular).subspan(k, std::min(length, regular.size() - k));
-      // function(stretch) of each stretch that W couples this one to.
-      const auto for_coupled = [&](const auto& function) {
-        for (const int i : stretch) {
-          for (const BlockedDelassus::Entry& entry : coupling.blocks().entries(i)) {
-            const int other = cone_of_row[static_cast<std::size_t>(entry.row)];
-            const int at = place[static_cast<std::size_t>(other)];
-            if (at >= 0) function(static_cast<std::size_t>(at) / length);
-          }
-        }
-      };
-      ColourSet& mine = taken[k / length];
-      for_coupled([&](std::size_t s) {
-        if (s < colour.size()) mine.insert(colour[s]);
-      });
-      colour.push_back(mine.first_missing());
-      // W may hold a block on one side of its diagonal only.
-      for_coupled([&](std::size_t s) {
-        if (s >= colour.size()) taken[s].insert(colour.back());
-      });
+  // A place for each coupled pair, as W may hold a block on one side of its diagonal only.
+  std::vector<std::pair<int, int>> touches;
+  int pairs = 0;
+  for (int i = 0; i < cones; ++i) {
+    for (const BlockedDelassus::Entry& entry : coupling.blocks().entries(i)) {
+      const int other = cone_of_row[static_cast<std::size_t>(entry.row)];
+      if (other == i) continue;
+      touches.emplace_back(i, pairs);
+      touches.emplace_back(other, pairs);
+      ++pairs;
     }
-    return colour;
-  });
+  }
+  std::ranges::sort(touches);
+  Footprints footprints{.places = static_cast<std::size_t>(pairs)};
+  for (int i = 0; i < cones; ++i) {
+    while (footprints.place.size() < touches.size() &&
+           touches[footprints.place.size()].first == i) {
+      footprints.place.push_back(touches[footprints.place.size()].second);
+    }
+    footprints.begin.push_back(footprints.place.size());
+  }
+  arrange(regular, footprints);
 }
 
 void Colouring::colour_by_runs(int cones, const BlockedRows& rows) {
-  const auto run_length = static_cast<std::size_t>(rows.run_length());
-  const std::size_t runs = static_cast<std::size_t>(rows.scaled_dofs()) / run_length;
-  auto of = [&](int run) { return static_cast<std::size_t>(run) / run_length; };
-  std::vector<int> felt_by(runs, 0);
+  const int run_length = rows.run_length();
+  Footprints footprints{.places = static_cast<std::size_t>(rows.scaled_dofs() / run_length)};
+  std::vector<int> felt_by(footprints.places, 0);
   for (int i = 0; i < cones; ++i) {
-    for (const int run : rows.runs(i)) ++felt_by[of(run)];
+    for (const int run : rows.runs(i)) {
+      footprints.place.push_back(run / run_length);
+      ++felt_by[static_cast<std::size_t>(run / run_length)];
+    }
+    footprints.begin.push_back(footprints.place.size());
   }
   std::vector<int> regular;
   for (int i = 0; i < cones; ++i) {
-    const bool hub =
-        std::ranges::any_of(rows.runs(i), [&](int run) { return felt_by[of(run)] > kHub; });
+    const bool hub = std::ranges::any_of(footprints.of(i), [&](int place) {
+      return felt_by[static_cast<std::size_t>(place)] > kHub;
+    });
     (hub ? serial_ : regular).push_back(i);
   }
-  cut(regular, [&](std::size_t length) {
-    std::vector<ColourSet> of_run(runs);
-    std::vector<int> colour;
-    ColourSet taken;
-    for (std::size_t k = 0; k < regular.size(); k += length) {
-      const auto stretch = std::span(regular).subspan(k, std::min(length, regular.size() - k));
-      taken.clear();
-      for (const int i : stretch) {
-        for (const int run : rows.runs(i)) taken.insert(of_run[of(run)]);
-      }
-      const int mine = taken.first_missing();
-      for (const int i : stretch) {
-        for (const int run : rows.runs(i)) of_run[of(run)].insert(mine);
-      }
-      colour.push_back(mine);
-    }
-    return colour;
-  });
+  arrange(regular, footprints);
 }
 
 }  // namespace conebench::solvers

@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <numeric>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "problems/made_backwards.h"
 #include "solvers/colouring.h"
 #include "solvers/registry.h"
+#include "solvers/work_shares.h"
 
 namespace conebench::solvers {
 namespace {
@@ -26,12 +29,11 @@ void expect_partition(const Colouring& colouring, int cones) {
   std::set<int> seen(colouring.serial().begin(), colouring.serial().end());
   std::size_t count = colouring.serial().size();
   for (const Colouring::Colour& colour : colouring.parallel()) {
-    EXPECT_GE(static_cast<int>(colour.cones.size()), Colouring::kLeastParallel);
-    EXPECT_GE(colour.stretches(), Colouring::kLeastStretches);
+    EXPECT_GT(static_cast<int>(colour.cones.size()), Colouring::kBarrier);
     EXPECT_TRUE(std::ranges::is_sorted(colour.cones));
     std::size_t in_stretches = 0;
-    for (int s = 0; s < colour.stretches(); ++s) {
-      EXPECT_LE(static_cast<int>(colour.stretch(s).size()), Colouring::kLongest);
+    for (int s = 0; s < colour.count(); ++s) {
+      EXPECT_LT(colour.stretch(s).size(), colour.cones.size());
       in_stretches += colour.stretch(s).size();
     }
     EXPECT_EQ(in_stretches, colour.cones.size());
@@ -53,7 +55,7 @@ void expect_apart(const Colouring& colouring, const Problem& problem) {
   }
   for (const Colouring::Colour& colour : colouring.parallel()) {
     std::map<int, int> stretch_of;
-    for (int s = 0; s < colour.stretches(); ++s) {
+    for (int s = 0; s < colour.count(); ++s) {
       for (const int i : colour.stretch(s)) stretch_of[i] = s;
     }
     for (const auto& [i, s] : stretch_of) {
@@ -71,7 +73,7 @@ void expect_apart(const Colouring& colouring, const Problem& problem) {
 int longest_stretch(const Colouring& colouring) {
   int longest = 0;
   for (const Colouring::Colour& colour : colouring.parallel()) {
-    for (int s = 0; s < colour.stretches(); ++s) {
+    for (int s = 0; s < colour.count(); ++s) {
       longest = std::max(longest, static_cast<int>(colour.stretch(s).size()));
     }
   }
@@ -107,18 +109,19 @@ Problem chain(int cones, bool hub, Order order = Order::kAlong) {
 }
 
 TEST(Colouring, OfBodiesSetsNeighboursApart) {
-  const Problem problem = heap(1500);
+  const Problem problem = heap(6000);
   const int colours = with_coupling(problem, true, [&](const auto& coupling) {
     const Colouring colouring(problem, coupling);
     expect_partition(colouring, problem.cone_count());
     expect_apart(colouring, problem);
+    EXPECT_LE(colouring.serial().size(), 1000u);
     return static_cast<int>(colouring.parallel().size());
   });
   EXPECT_GE(colours, 2);
 }
 
 TEST(Colouring, OfWSetsNeighboursApart) {
-  const Problem problem = heap(1500);
+  const Problem problem = heap(6000);
   const DelassusCoupling coupling(problem);
   const Colouring colouring(problem, coupling);
   expect_partition(colouring, problem.cone_count());
@@ -126,15 +129,24 @@ TEST(Colouring, OfWSetsNeighboursApart) {
   EXPECT_GE(colouring.parallel().size(), 2u);
 }
 
-// Neighbours in a chain are neighbours in memory: stretches stay long and two colours do.
-TEST(Colouring, KeepsStretchesOfAChainLong) {
+// Neighbours in a chain are neighbours in memory: a slab feels one cone of the one before it.
+TEST(Colouring, CutsAChainIntoSlabs) {
   const Problem problem = chain(40000, false);
   const Colouring colouring(problem,
                             VelocityCoupling<RunProducts<3>>(problem, BlockedRows(problem)));
   expect_partition(colouring, problem.cone_count());
-  EXPECT_EQ(colouring.parallel().size(), 2u);
-  EXPECT_TRUE(colouring.serial().empty());
+  ASSERT_EQ(colouring.parallel().size(), 1u);
+  EXPECT_EQ(static_cast<int>(colouring.serial().size()), colouring.parallel()[0].count() - 1);
   EXPECT_GE(longest_stretch(colouring), 100);
+}
+
+// Waking threads would take longer than they save.
+TEST(Colouring, LeavesFewConesToOneThread) {
+  const Problem problem = chain(90, false);
+  const Colouring colouring(problem,
+                            VelocityCoupling<RunProducts<3>>(problem, BlockedRows(problem)));
+  expect_partition(colouring, problem.cone_count());
+  EXPECT_TRUE(colouring.parallel().empty());
 }
 
 // Without any order long stretches touch everything: they must give way to short ones.
@@ -180,8 +192,37 @@ TEST(Colouring, LeavesAHubToOneThread) {
   }
 }
 
+// However unlike the threads' speeds, each item is taken once; one alone takes its own share from
+// the front and then the others' from the back.
+TEST(WorkShares, GiveEachItemOnce) {
+  constexpr int kItems = 10000, kThreads = 4;
+  WorkShares shares(kThreads);
+  std::vector<std::atomic<int>> taken(kItems);
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < kThreads; ++t) {
+      threads.emplace_back([&, t] {
+        shares.deal(t, kItems);
+        for (int k = shares.take(t); k >= 0; k = shares.take(t)) {
+          ++taken[static_cast<std::size_t>(k)];
+        }
+      });
+    }
+  }
+  EXPECT_TRUE(std::ranges::all_of(taken, [](const auto& times) { return times == 1; }));
+}
+
+TEST(WorkShares, GoOnWithTheOthersFromTheBack) {
+  WorkShares shares(2);
+  shares.deal(0, 5);
+  shares.deal(1, 5);
+  std::vector<int> order;
+  for (int k = shares.take(1); k >= 0; k = shares.take(1)) order.push_back(k);
+  EXPECT_EQ(order, (std::vector{2, 3, 4, 1, 0}));
+}
+
 TEST(GaussSeidelParallel, ThreadsChangeNoBit) {
-  const Problem problem = heap(1500);
+  const Problem problem = heap(6000);
   Request request;
   request.stop = {.tol = 1e-300, .max_iterations = 40};
   const Eigen::VectorXd one = make_solver("gs-parallel[threads=1]").solve(problem, request).r;
