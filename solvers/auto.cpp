@@ -76,15 +76,22 @@ struct Expectations {
   std::int64_t ipm_steps = 30;
 };
 constexpr double kLooseAdmm = 1000.0;
-constexpr Expectations kOnGrid{6000.0, 0.0, 3000.0, 15000.0, 1000.0, 12000.0, 300};
+constexpr Expectations kOnGrid{.gs = 6000.0,
+                               .apgd = 0.0,
+                               .prox_newton = 3000.0,
+                               .newton_ac = 60000.0,
+                               .ipm = 3000.0,
+                               .aclm = 60000.0,
+                               .apgd_steps = 300,
+                               .ipm_steps = 15};
 // apgd solves the easy ones at once, and never the hard ones.
 constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .apgd = 0.0,
                                     .prox_newton = 2000.0,
                                     .newton_ac = 30000.0,
-                                    .ipm = 200.0,
+                                    .ipm = 400.0,
                                     .aclm = 15000.0,
-                                    .apgd_steps = 50,
+                                    .apgd_steps = 150,
                                     .apgd_believed = 1e-3,
                                     .ipm_steps = 20};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.

@@ -23,7 +23,6 @@ namespace {
 
 constexpr int kMostSlabs = 128;
 constexpr std::size_t kLongestPiece = 256;
-constexpr int kStretchStart = 20;  // a stretch costs as many cones more, at most its own number
 // Slabs that take so much longer than the work evenly divided are weighed against pieces.
 constexpr double kWellDivided = 1.3;
 
@@ -70,13 +69,19 @@ Stretches pieces(const std::vector<int>& cones, std::size_t length) {
 }
 
 // Cones in sequence where `threads` take one stretch after another: their share, and half of what
-// the longest stretch may add (Graham's bound), since nobody knows what each cone will cost.
+// the longest stretch may add (Graham's bound), since nobody knows what each cone will cost. Memory
+// is read in the order of the problem; to skip cones costs as much as one more, to take a stretch
+// likewise.
 double in_sequence(const Stretches& stretches, int threads) {
   int longest = 0, all = 0;
   for (int s = 0; s < stretches.count(); ++s) {
-    const auto length = static_cast<int>(stretches.stretch(s).size());
-    longest = std::max(longest, length);
-    all += length + std::min(length, kStretchStart);
+    int work = 1, next = -1;
+    for (const int i : stretches.stretch(s)) {
+      work += i == next ? 1 : 2;
+      next = i + 1;
+    }
+    longest = std::max(longest, work);
+    all += work;
   }
   return std::max(1.0 * all / threads + 0.5 * longest * (1.0 - 1.0 / threads), 1.0 * longest);
 }
