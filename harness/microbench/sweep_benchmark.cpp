@@ -1,7 +1,8 @@
 // One sweep of Gauss-Seidel in velocity form on packed spheres, or on problems from files whose
 // cones have d = 3, beside its floor: max(bytes that a sweep must move / bandwidth at that working
 // set, time of its arithmetic). The arithmetic, local solves and products with H, is timed at the
-// last iterate, where no cone waits for another.
+// last iterate, where no cone waits for another. Beside it the gain of gs-parallel with two
+// threads.
 //
 //   build/sweep_benchmark [FILE...]
 //
@@ -151,23 +152,35 @@ double product_time(const Problem& problem, const Eigen::VectorXd& r) {
   return best / problem.cone_count();
 }
 
-void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
-  const Solver solver = make_solver("gs[form=velocity]");
+// Best time of a sweep within solves of some ten milliseconds, and the last answer. [s]
+double sweep_time(const std::string& variant, const Problem& problem, const Eigen::VectorXd& guess,
+                  Eigen::VectorXd& r) {
+  const Solver solver = make_solver(variant);
   const auto sweeps = std::max<std::int64_t>(10, 2'000'000 / std::max(1, problem.cone_count()));
   Request request;
   request.stop = {.tol = 1e-300, .max_iterations = sweeps, .test = StopTest::kOwn};
   request.guess = guess;
-  Result result;
   double best = 1e9;
-  for (auto _ : state) {
-    result = solver.solve(problem, request);
+  for (int repetition = 0; repetition < 5; ++repetition) {
+    Result result = solver.solve(problem, request);
     best = std::min(best, result.solve_s / static_cast<double>(result.iterations));
+    r = std::move(result.r);
+  }
+  return best;
+}
+
+void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
+  Eigen::VectorXd r;
+  double best = 0.0, parallel = 0.0;
+  for (auto _ : state) {
+    parallel = sweep_time("gs-parallel[threads=2]", problem, guess, r);
+    best = sweep_time("gs[form=velocity]", problem, guess, r);
   }
   const double cones = problem.cone_count();
   const auto bytes = static_cast<double>(gauss_seidel_sweep_bytes(problem));
   const double moved = bytes / read_bandwidth(static_cast<std::size_t>(bytes)) / cones;
-  const double local = local_solve_time(problem, result.r);
-  const double products = product_time(problem, result.r);
+  const double local = local_solve_time(problem, r);
+  const double products = product_time(problem, r);
   state.counters["cones"] = cones;
   state.counters["ns_per_cone"] = 1e9 * best / cones;
   state.counters["bytes_per_cone"] = bytes / cones;
@@ -175,6 +188,7 @@ void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorX
   state.counters["ns_local"] = 1e9 * local;
   state.counters["ns_products"] = 1e9 * products;
   state.counters["times_floor"] = best / cones / std::max(moved, local + products);
+  state.counters["gain_by_two_threads"] = best / parallel;
 }
 
 void sweep_file(benchmark::State& state, const std::string& path) {
@@ -196,7 +210,7 @@ void sweep_lattice(benchmark::State& state) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   const auto set_up = [](benchmark::internal::Benchmark* benchmark) {
-    return benchmark->Unit(benchmark::kMillisecond)->Iterations(5);
+    return benchmark->Unit(benchmark::kMillisecond)->Iterations(1);
   };
   for (int k = 1; k < argc; ++k) {
     set_up(benchmark::RegisterBenchmark(argv[k], conebench::solvers::sweep_file,
