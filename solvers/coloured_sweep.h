@@ -29,9 +29,9 @@ class ColouredSweep {
 #pragma omp parallel num_threads(threads_)
     {
       SweepSize mine;
-      const int thread = omp_get_thread_num();
+      const int thread = omp_get_thread_num(), threads = omp_get_num_threads();
       for (const Colouring::Colour& colour : colouring_.parallel()) {
-        shares_.deal(thread, colour.count());
+        shares_.deal(thread, threads, colour.count());
         for (int s = shares_.take(thread); s >= 0; s = shares_.take(thread)) {
           for (const int i : colour.stretch(s)) sweeper.visit(i, r, mine);
         }

@@ -13,13 +13,13 @@ class WorkShares {
  public:
   explicit WorkShares(int threads) : shares_(static_cast<std::size_t>(threads)) {}
 
-  /// Each thread deals its own share and then takes until there is none. Between two rounds the
-  /// threads must meet.
-  void deal(int thread, int count) {
-    const auto threads = static_cast<std::int64_t>(shares_.size());
-    share(thread).store(
-        packed(static_cast<std::uint32_t>(count * std::int64_t{thread} / threads),
-               static_cast<std::uint32_t>(count * (std::int64_t{thread} + 1) / threads)));
+  /// Thread `thread` of `threads`, at most as many as shares, deals its own; then it takes until
+  /// there is none. Between two rounds the threads must meet.
+  void deal(int thread, int threads, int count) {
+    const auto from = [&](std::int64_t t) {
+      return static_cast<std::uint32_t>(count * t / threads);
+    };
+    share(thread).store(packed(from(thread), from(thread + 1)));
   }
 
   /// An item that nobody else gets, or -1 when all shares dealt so far are empty.

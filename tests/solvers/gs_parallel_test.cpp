@@ -202,7 +202,7 @@ TEST(WorkShares, GiveEachItemOnce) {
     std::vector<std::jthread> threads;
     for (int t = 0; t < kThreads; ++t) {
       threads.emplace_back([&, t] {
-        shares.deal(t, kItems);
+        shares.deal(t, kThreads, kItems);
         for (int k = shares.take(t); k >= 0; k = shares.take(t)) {
           ++taken[static_cast<std::size_t>(k)];
         }
@@ -214,11 +214,20 @@ TEST(WorkShares, GiveEachItemOnce) {
 
 TEST(WorkShares, GoOnWithTheOthersFromTheBack) {
   WorkShares shares(2);
-  shares.deal(0, 5);
-  shares.deal(1, 5);
+  shares.deal(0, 2, 5);
+  shares.deal(1, 2, 5);
   std::vector<int> order;
   for (int k = shares.take(1); k >= 0; k = shares.take(1)) order.push_back(k);
   EXPECT_EQ(order, (std::vector{2, 3, 4, 1, 0}));
+}
+
+// OpenMP may grant fewer threads than were asked for.
+TEST(WorkShares, GoToTheThreadsThatCame) {
+  WorkShares shares(4);
+  shares.deal(0, 1, 3);
+  std::vector<int> order;
+  for (int k = shares.take(0); k >= 0; k = shares.take(0)) order.push_back(k);
+  EXPECT_EQ(order, (std::vector{0, 1, 2}));
 }
 
 TEST(GaussSeidelParallel, ThreadsChangeNoBit) {
