@@ -84,7 +84,9 @@ constexpr Expectations kOnGrid{.gs = 6000.0,
                                .aclm = 60000.0,
                                .apgd_steps = 300,
                                .ipm_steps = 15};
-// apgd solves the easy ones at once, and never the hard ones.
+// apgd solves the easy ones at once, and never the hard ones. To this tolerance; ipm and the steps
+// of apgd in proportion to the decades of another.
+constexpr double kPlaneTol = 1e-5;
 constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .apgd = 0.0,
                                     .prox_newton = 2000.0,
@@ -99,6 +101,10 @@ constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 1200.0, 12000.
 // Where W is singular for sure, the last three need more and dearer factorisations.
 constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
 constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
+// Of so few, a factorisation costs a few sweeps.
+constexpr int kFewCones = 60;
+constexpr double kCheapNewton = 0.3;
+constexpr std::int64_t kFewApgdSteps = 500;
 
 Expectations expectations(const Problem& problem, double tol) {
   const bool loose = tol >= kLooseTol;
@@ -110,11 +116,20 @@ Expectations expectations(const Problem& problem, double tol) {
     if (loose) return kLooselyOnGrid;
     const bool in_space =
         std::ranges::any_of(problem.cones(), [](const Cone& cone) { return cone.dim > 3; });
-    return in_space ? kOnGrid : kOnPlaneGrid;
+    if (in_space) return kOnGrid;
+    Expectations expected = kOnPlaneGrid;
+    const double decades = std::log(std::max(tol, 1e-12)) / std::log(kPlaneTol);
+    expected.ipm *= decades;
+    expected.apgd_steps = std::lround(decades * static_cast<double>(expected.apgd_steps));
+    return expected;
   }
   const bool singular = problem.is_primal() && problem.rows() > problem.dofs();
   Expectations expected = singular ? kSingular : kOtherwise;
   if (loose) expected.admm = kLooseAdmm;
+  if (problem.cone_count() <= kFewCones) {
+    expected.newton_ac *= kCheapNewton;
+    expected.apgd_steps = kFewApgdSteps;
+  }
   return expected;
 }
 
