@@ -34,10 +34,6 @@ constexpr double kDiagonalPivot = 1e-8;
 
 // MUMPS' job numbers, its answer that the room is too small, and its number for "all processes".
 enum Job { kInitialise = -1, kFinish = -2, kAnalyse = 1, kFactorize = 2, kSolve = 3 };
-// Its orders: quasi-dense approximate minimum degree, and PORD, which dissects. The second costs up
-// to twice the analysis, and on large grids in space takes a third off the flops.
-enum Order { kMinimumDegree = 6, kDissection = 4 };
-constexpr double kWorthAnotherOrder = 5e8;  // flops
 constexpr int kTooLittleRoom = -9;
 constexpr MUMPS_INT kWorld = -987654;
 
@@ -58,6 +54,7 @@ class Lu::Multifrontal final : public Factor {
     for (const int stream : {1, 2, 3}) control(stream) = -1;  // silent
     control(4) = 0;
     control(6) = 0;  // columns as they are
+    control(7) = 6;  // quasi-dense approximate minimum degree
     control(8) = 0;  // no scaling
     control(14) = kFirstRoom;
     mumps_.cntl[0] = kDiagonalPivot;
@@ -79,8 +76,7 @@ class Lu::Multifrontal final : public Factor {
     mumps_.nnz = static_cast<MUMPS_INT8>(rows_.size());
     mumps_.irn = rows_.data();
     mumps_.jcn = columns_.data();
-    const double flops = analysed(kMinimumDegree);
-    if (flops > kWorthAnotherOrder && analysed(kDissection) > flops) analysed(kMinimumDegree);
+    run(kAnalyse);
   }
 
   bool factorize(const Matrix& matrix) override {
@@ -108,13 +104,6 @@ class Lu::Multifrontal final : public Factor {
   }
 
  private:
-  // The flops expected of a factorisation in this order.
-  double analysed(Order order) {
-    control(7) = order;
-    run(kAnalyse);
-    return mumps_.rinfog[0];
-  }
-
   MUMPS_INT& control(int number) { return mumps_.icntl[number - 1]; }
 
   void run(Job job) {

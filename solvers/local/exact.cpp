@@ -131,9 +131,8 @@ bool ExactLocal<D>::slide_coulomb(const Reduced& p, double& a, Tangent& rt, doub
   if (Wnn_ == 0.0) return false;
   const double b_size = p.b.norm();
   if (!(b_size > 0.0)) return false;
-  // psi and its derivative; leaves r_t(a), its derivative and 1 / |r_t| behind.
+  // psi and its derivative; leaves r_t(a) and its derivative behind.
   Tangent rt_slope = p.b;
-  double inverse_size = 0.0;
   auto psi = [&](double x, double* slope) {
     double square = 0.0, square_slope = 0.0, normal = p.push, normal_slope = 0.0;
     for (Eigen::Index k = 0; k < s_.size(); ++k) {
@@ -145,7 +144,7 @@ bool ExactLocal<D>::slide_coulomb(const Reduced& p, double& a, Tangent& rt, doub
       square += rt(k) * rt(k);
       square_slope += rt(k) * rt_slope(k);
     }
-    inverse_size = 1.0 / std::sqrt(square);
+    const double inverse_size = 1.0 / std::sqrt(square);
     const double scale = mu_ * inverse_size;
     if (slope) {
       *slope = scale * (normal_slope - normal * square_slope * inverse_size * inverse_size);

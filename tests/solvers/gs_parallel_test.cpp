@@ -12,6 +12,7 @@
 
 #include "problems/made_backwards.h"
 #include "solvers/colouring.h"
+#include "solvers/gs.h"
 #include "solvers/registry.h"
 #include "solvers/work_shares.h"
 
@@ -230,15 +231,32 @@ TEST(WorkShares, GoToTheThreadsThatCame) {
   EXPECT_EQ(order, (std::vector{0, 1, 2}));
 }
 
+// The iterate itself: a solver's answer is the best one seen.
+Eigen::VectorXd after_sweeps(const Problem& problem, int threads) {
+  const auto sweeps = make_gauss_seidel(problem, {.threads = threads});
+  sweeps->start(Eigen::VectorXd::Zero(problem.rows()));
+  for (int k = 0; k < 40; ++k) sweeps->advance();
+  return sweeps->r();
+}
+
 TEST(GaussSeidelParallel, ThreadsChangeNoBit) {
-  const Problem problem = heap(6000);
-  Request request;
-  request.stop = {.tol = 1e-300, .max_iterations = 40};
-  const Eigen::VectorXd one = make_solver("gs-parallel[threads=1]").solve(problem, request).r;
-  for (const char* variant : {"gs-parallel[threads=2]", "gs-parallel[threads=5]"}) {
-    EXPECT_EQ(make_solver(variant).solve(problem, request).r, one) << variant;
+  for (const Problem& problem : {heap(6000), chain(40000, false), chain(4000, true)}) {
+    const Eigen::VectorXd one = after_sweeps(problem, 1);
+    EXPECT_EQ(after_sweeps(problem, 2), one);
+    EXPECT_EQ(after_sweeps(problem, 5), one);
+    EXPECT_GT(one.norm(), 0.0);
   }
-  EXPECT_GT(one.norm(), 0.0);
+}
+
+// An associated cone that its normal rate alone would leave open: r = P_K(-q).
+TEST(GaussSeidel, ClosesAConeThatSlidesFasterThanItOpens) {
+  Eigen::MatrixXd W = Eigen::MatrixXd::Identity(3, 3);
+  const Problem problem(problems::ReducedData{W.sparseView(), Eigen::Vector3d(0.1, 1.0, 0.0)},
+                        std::vector<problems::Cone>{problems::Cone::associated(3, 0.5)}, {});
+  for (const char* variant : {"gs", "gs-parallel", "gs[skip=10]"}) {
+    const Eigen::VectorXd r = make_solver(variant).solve(problem, {}).r;
+    EXPECT_LE((r - Eigen::Vector3d(0.32, -0.16, 0.0)).norm(), 1e-12) << variant;
+  }
 }
 
 }  // namespace

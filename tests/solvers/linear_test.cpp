@@ -168,6 +168,19 @@ TEST(Lu, SurvivesNan) {
   }
 }
 
+// No order has anything to choose: PORD, which MUMPS brings, ends the process here.
+TEST(Lu, TakesADenseMatrix) {
+  const int size = 1000;
+  const Eigen::MatrixXd dense =
+      random_matrix(size, 6) + 40.0 * Eigen::MatrixXd::Identity(size, size);
+  const Lu::Matrix A = dense.sparseView();
+  Lu lu;
+  lu.analyse(A);
+  ASSERT_TRUE(lu.factorize(A));
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(size, 1.0, 2.0);
+  EXPECT_LE((lu.solve(dense * x) - x).norm(), 1e-11 * x.norm());
+}
+
 TEST(Lu, ServesSeveralThreads) {
   const int size = 400;
   const Lu::Matrix A = banded(size, 5, 5.0);
