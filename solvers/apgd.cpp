@@ -9,7 +9,7 @@
 
 #include "solvers/cone_vectors.h"
 #include "solvers/delassus_product.h"
-#include "solvers/local/one_cone.h"
+#include "solvers/with_dimension.h"
 
 namespace conebench::solvers {
 namespace {

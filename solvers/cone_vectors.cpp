@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solvers/local/one_cone.h"
+#include "solvers/with_dimension.h"
 
 namespace conebench::solvers {
 namespace {

@@ -210,17 +210,15 @@ double gauss_seidel_sweep_work_s(const Problem& problem) {
 }
 
 std::size_t gauss_seidel_sweep_bytes(const Problem& problem) {
-  const BlockedRows rows(problem);
-  std::size_t bytes = rows.bytes();
-  for (const Cone& cone : problem.cones()) {
-    const auto dim = static_cast<std::size_t>(cone.dim);
-    with_dimension(cone.dim, [&]<int D>() {
-      bytes += sizeof(OneCone<D>);
-      if (D == Eigen::Dynamic) bytes += 2 * dim * dim * sizeof(double);
-    });
-    bytes += sizeof(Cone) + sizeof(std::size_t) + sizeof(double) + 2 * dim * sizeof(double);
-  }
-  return bytes + sizeof(double) * static_cast<std::size_t>(rows.scaled_dofs());
+  constexpr GaussSeidelSettings kSettings;
+  BlockedRows rows(problem);
+  return with_products(rows, [&]<class Products>() {
+    VelocityCoupling<Products> coupling(problem, std::move(rows));
+    const std::size_t coupling_bytes = coupling.bytes();
+    const Sweeper sweeper(problem, kSettings.local, kSettings.omega, kSettings.regularization,
+                          std::move(coupling));
+    return coupling_bytes + sweeper.bytes();
+  });
 }
 
 Method gauss_seidel() {

@@ -23,6 +23,10 @@ class VelocityCoupling {
       : problem_(problem), rows_(std::move(rows)) {}
 
   const BlockedRows& rows() const { return rows_; }
+  /// Of the blocks, their indices and y.
+  std::size_t bytes() const {
+    return rows_.bytes() + sizeof(double) * static_cast<std::size_t>(rows_.scaled_dofs());
+  }
 
   void refresh(const Eigen::VectorXd& r) { y_ = rows_.scaled_velocity(problem_, r); }
 

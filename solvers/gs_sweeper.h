@@ -52,14 +52,15 @@ class Sweeper {
         omega_(omega),
         regularization_(regularization),
         coupling_(std::move(coupling)) {
-    slot_.reserve(static_cast<std::size_t>(problem.cone_count()));
+    places_.reserve(static_cast<std::size_t>(problem.cone_count()));
     prepare();
   }
 
   Coupling& coupling() { return coupling_; }
   /// Takes up the diagonal blocks of the coupling anew.
   void prepare() {
-    slot_.clear();
+    places_.clear();
+    isotropic_.clear();
     std::apply([](auto&... locals) { (locals.clear(), ...); }, locals_);
     for (int i = 0; i < problem_.cone_count(); ++i) prepare(i);
   }
@@ -84,37 +85,78 @@ class Sweeper {
   /// same time.
   double visit(int i, Eigen::VectorXd& r, SweepSize& size) {
     ++size.failures.solved;
-    return with_dimension(cone(i).dim, [&]<int D>() { return update<D>(i, r, size); });
-  }
-
- private:
-  const problems::Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
-
-  void prepare(int i) {
-    with_dimension(cone(i).dim, [&]<int D>() {
-      auto& locals = std::get<std::vector<OneCone<D>>>(locals_);
-      slot_.push_back(locals.size());
-      locals.emplace_back(kind_, coupling_.diagonal_block(i), problem_.mobility()(i), cone(i),
-                          regularization_);
+    const Place& place = places_[static_cast<std::size_t>(i)];
+    return with_dimension(place.dim, [&]<int D>() {
+      if (place.isotropic) return update<D>(i, place, isotropic_[place.index], r, size);
+      return update<D>(i, place, locals<D>()[place.index], r, size);
     });
   }
 
+  /// What a sweep over all cones reads or writes, each once, the coupling's part left out. [bytes]
+  std::size_t bytes() const {
+    std::size_t bytes = 0;
+    for (const Place& place : places_) {
+      const auto dim = static_cast<std::size_t>(place.dim);
+      const std::size_t local =
+          place.isotropic ? sizeof(IsotropicCone) : with_dimension(place.dim, [&]<int D>() {
+            const std::size_t elsewhere = D == Eigen::Dynamic ? 2 * dim * dim : 0;
+            return sizeof(OneCone<D>) + elsewhere * sizeof(double);
+          });
+      bytes += sizeof(Place) + local + (1 + 2 * dim) * sizeof(double);  // lambda_i, r_i, w_i
+    }
+    return bytes;
+  }
+
+ private:
+  // Where cone i is found.
+  struct Place {
+    int at, dim;          // its first row, its dimension
+    std::uint32_t index;  // in isotropic_, or in the list of its dimension
+    bool isotropic;
+  };
+
   template <int D>
-  double update(int i, Eigen::VectorXd& r, SweepSize& size) {
+  std::vector<OneCone<D>>& locals() {
+    return std::get<std::vector<OneCone<D>>>(locals_);
+  }
+
+  void prepare(int i) {
+    const problems::Cone& cone = problem_.cones()[static_cast<std::size_t>(i)];
+    with_dimension(cone.dim, [&]<int D>() {
+      OneCone<D> local(kind_, coupling_.diagonal_block(i), problem_.mobility()(i), cone,
+                       regularization_);
+      const auto isotropic = local.isotropic();
+      const std::size_t index = isotropic ? isotropic_.size() : locals<D>().size();
+      places_.push_back({.at = problem_.start(i),
+                         .dim = cone.dim,
+                         .index = static_cast<std::uint32_t>(index),
+                         .isotropic = isotropic.has_value()});
+      if (isotropic) {
+        isotropic_.push_back(*isotropic);
+      } else {
+        locals<D>().push_back(std::move(local));
+      }
+    });
+  }
+
+  // Flattened: the calls inside would cost as much as what they do.
+  template <int D, class Local>
+  [[gnu::flatten]] double update(int i, const Place& place, Local& local, Eigen::VectorXd& r,
+                                 SweepSize& size) {
     using Vector = Eigen::Matrix<double, D, 1>;
-    const int at = problem_.start(i), dim = cone(i).dim;
-    const double lambda = problem_.mobility()(i);
-    auto ri = r.template segment<D>(at, dim);
-    auto& local = std::get<std::vector<OneCone<D>>>(locals_)[slot_[static_cast<std::size_t>(i)]];
-    if ((ri.array() == 0.0).all() && local.stays_open(coupling_.normal_rate(i, at, dim)))
+    auto ri = r.template segment<D>(place.at, place.dim);
+    if ((ri.array() == 0.0).all() &&
+        local.stays_open(coupling_.normal_rate(i, place.at, place.dim))) {
       return 0.0;
-    Vector u(dim), next = ri;
-    coupling_.rate(i, at, u);
+    }
+    const double lambda = problem_.mobility()(i);
+    Vector u(place.dim), next = ri;
+    coupling_.rate(i, place.at, u);
     const LocalOutcome outcome = local.solve(u, next);
     if (outcome != LocalOutcome::kDone) note(i, outcome, size.failures);
     if (omega_ != 1.0 && outcome != LocalOutcome::kNoSolution) {
       next = (1.0 - omega_) * Vector(ri) + omega_ * next;
-      problems::project(cone(i).mu, next);
+      problems::project(problem_.cones()[static_cast<std::size_t>(i)].mu, next);
     }
     const Vector change = next - ri;
     const double moved = lambda * change.norm();
@@ -142,7 +184,8 @@ class Sweeper {
   std::tuple<std::vector<OneCone<1>>, std::vector<OneCone<2>>, std::vector<OneCone<3>>,
              std::vector<OneCone<6>>, std::vector<OneCone<Eigen::Dynamic>>>
       locals_;
-  std::vector<std::size_t> slot_;  // of cone i in the list of its dimension
+  std::vector<IsotropicCone> isotropic_;  // of any dimension
+  std::vector<Place> places_;
 };
 
 }  // namespace conebench::solvers

@@ -74,11 +74,17 @@ void ExactLocal<D>::set(const Matrix& W, double lambda, double mu, double theta)
   diagonalise(S, s_, Q_);
   for (double& value : s_) value = value > kZeroEigenvalue * lambda ? value : 0.0;
   w_ = (Q_.transpose() * w_).eval();
-  isotropic_ = 0.0;
-  if (tangents == 0 || theta != mu || mu == 0.0 || Wnn_ == 0.0) return;
-  const double rounding = kZeroEigenvalue * lambda;
-  if (Wnn_ * w_.norm() > rounding || s_.maxCoeff() - s_.minCoeff() > rounding) return;
-  isotropic_ = s_.mean();
+}
+
+template <int D>
+std::optional<IsotropicCone> ExactLocal<D>::isotropic() const {
+  if (s_.size() == 0 || theta_ != mu_ || Wnn_ == 0.0) return std::nullopt;
+  const double least = s_.minCoeff(), largest = s_.maxCoeff();
+  const double rounding = kZeroEigenvalue * std::max(Wnn_, largest);
+  if (least == 0.0 || largest - least > rounding || Wnn_ * w_.norm() > rounding) {
+    return std::nullopt;
+  }
+  return IsotropicCone(Wnn_, s_.mean(), mu_);
 }
 
 // W = L diag(W_nn, S) L^T with |L^-1|^2 <= 2 (1 + |w|^2).
@@ -251,22 +257,6 @@ bool ExactLocal<D>::slide_dilating(const Reduced& p, double& a, Tangent& rt, dou
   return true;
 }
 
-// r_n = -q_n / W_nn, and r_t = -q_t / s cut to mu r_n.
-template <int D>
-LocalCase ExactLocal<D>::solve_isotropic(const Vector& q, Vector& r) const {
-  const Eigen::Index tangents = q.size() - 1;
-  const auto qt = q.template segment<kTangents>(1, tangents);
-  const double rn = -q(0) / Wnn_, largest = mu_ * rn;
-  const double square = qt.squaredNorm();
-  const bool sticks = square <= isotropic_ * isotropic_ * largest * largest;
-  const double scale = sticks ? 1.0 / isotropic_ : largest / std::sqrt(square);
-  Vector answer(tangents + 1);
-  answer(0) = rn;
-  for (Eigen::Index k = 1; k <= tangents; ++k) answer(k) = -scale * q(k);
-  r = answer;
-  return sticks ? LocalCase::kStick : LocalCase::kSlide;
-}
-
 template <int D>
 LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) const {
   const Eigen::Index tangents = q.size() - 1;
@@ -278,7 +268,6 @@ LocalCase ExactLocal<D>::solve(const Vector& q, Vector& r, double& slide_rate) c
     r.setZero();
     return LocalCase::kOpen;
   }
-  if (isotropic_ > 0.0) return solve_isotropic(q, r);
   if (mu_ == 0.0 || tangents == 0) {
     if (Wnn_ == 0.0) return LocalCase::kNoSolution;
     r.setZero();

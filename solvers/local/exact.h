@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+
+#include "solvers/local/isotropic.h"
 
 namespace conebench::solvers {
 
@@ -26,7 +29,6 @@ enum class LocalCase {
 ///
 /// one scalar equation, solved as psi(a) = mu r_n / |r_t| - 1 = 0, which is nearly linear in a
 /// (exactly linear for d = 2), by bracketed Newton in the eigenbasis of S: O(d) an evaluation.
-/// Between spheres W = diag(W_nn, s I), and the slide is r_t = -mu r_n q_t / |q_t|.
 /// For theta < mu the same elimination is linear in rho = |r_t| for given a: see exact.cpp.
 ///
 /// Singular W. Eigenvalues of S below 4e-15 |W| count as zero. null(W) is spanned by
@@ -51,6 +53,9 @@ class ExactLocal {
   /// A lower bound of the order of W's smallest eigenvalue; 0 where W counts as singular.
   double least_eigenvalue() const;
 
+  /// The same problem where theta = mu and W = diag(W_nn, s I) to rounding, both positive.
+  std::optional<IsotropicCone> isotropic() const;
+
   /// Whether q_n >= 0 alone says that r = 0.
   bool opens_by_normal() const { return theta_ == mu_; }
 
@@ -60,17 +65,15 @@ class ExactLocal {
  private:
   struct Reduced;  // the problem in the eigenbasis of S, for one q
 
-  LocalCase solve_isotropic(const Vector& q, Vector& r) const;
   bool stick(const Reduced& p, Tangent& rt, double& rn) const;
   bool slide_coulomb(const Reduced& p, double& a, Tangent& rt, double& rn) const;
   bool slide_dilating(const Reduced& p, double& a, Tangent& rt, double& rn) const;
 
   double mu_ = 0.0, theta_ = 0.0;
   double Wnn_ = 0.0;
-  double isotropic_ = 0.0;  // s > 0 where theta = mu and W = diag(W_nn, s I) to rounding; else 0
-  Tangent w_;               // Q^T W_tn / W_nn, 0 if W_nn is
-  Tangent s_;               // eigenvalues of S, increasing; those that count as zero are 0
-  TangentMatrix Q_;         // eigenvectors of S, in columns
+  Tangent w_;        // Q^T W_tn / W_nn, 0 if W_nn is
+  Tangent s_;        // eigenvalues of S, increasing; those that count as zero are 0
+  TangentMatrix Q_;  // eigenvectors of S, in columns
 };
 
 extern template class ExactLocal<1>;

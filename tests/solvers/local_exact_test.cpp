@@ -82,35 +82,55 @@ void expect_isotropic_solved(int d) {
   using Vector = typename ExactLocal<D>::Vector;
   std::mt19937_64 random(static_cast<std::uint64_t>(d));
   std::uniform_real_distribution<double> uniform(0.1, 2.0);
-  int sliding = 0, sticking = 0;
+  int open = 0, sliding = 0, sticking = 0;
   for (int k = 0; k < 1000; ++k) {
     Eigen::MatrixXd W = uniform(random) * Eigen::MatrixXd::Identity(d, d);
     W(0, 0) = uniform(random);
     const Vector q = random_rate(random, W, Conditioning::kGood);
-    const double lambda = largest_eigenvalue(W), mu = uniform(random);
-    ExactLocal<D> closed, iterated;
-    closed.set(W, lambda, mu, mu);
-    W(0, 1) += 1e-13;
-    W(1, 0) += 1e-13;
-    iterated.set(W, lambda, mu, mu);
-    Vector r = q, other = q;
+    const double lambda = largest_eigenvalue(W), mu = k % 10 == 0 ? 0.0 : uniform(random);
+    ExactLocal<D> exact;
+    exact.set(W, lambda, mu, mu);
+    ASSERT_TRUE(exact.isotropic().has_value());
+    Vector expected = q;
     double a = 0.0;
-    const LocalCase found = closed.solve(q, r, a);
-    ASSERT_EQ(found, iterated.solve(q, other, a));
-    EXPECT_LE((r - other).norm(), 1e-10 * (1.0 + r.norm()));
+    const LocalCase found = exact.solve(q, expected, a);
+
+    Vector r = Vector::Random(d);
+    r(0) = std::abs(r(0));
+    const Vector u = W * r + q;
+    EXPECT_EQ(exact.isotropic()->solve(u, r), LocalOutcome::kDone);
+    EXPECT_LE((r - expected).norm(), 1e-13 * (1.0 + q.norm()));
     EXPECT_LE(backward_residual(W, q, mu, mu, r), 1e-12);
+    EXPECT_EQ(exact.isotropic()->stays_open(q(0)), found == LocalCase::kOpen);
+    open += found == LocalCase::kOpen;
     sliding += found == LocalCase::kSlide;
     sticking += found == LocalCase::kStick;
+
+    exact.set(W, lambda, mu, 0.5 * mu);
+    EXPECT_EQ(exact.isotropic().has_value(), mu == 0.0);
+    W(0, 1) += 1e-13;
+    W(1, 0) += 1e-13;
+    exact.set(W, lambda, mu, mu);
+    EXPECT_FALSE(exact.isotropic().has_value());
   }
+  EXPECT_GT(open, 50);
   EXPECT_GT(sliding, 50);
   EXPECT_GT(sticking, 50);
 }
 
-TEST(ExactLocal, IsotropicBlocksAreCutBackToTheCone) {
+TEST(IsotropicCone, SolvesWhatTheGeneralOneDoes) {
   expect_isotropic_solved<2>(2);
   expect_isotropic_solved<3>(3);
   expect_isotropic_solved<6>(6);
   expect_isotropic_solved<Eigen::Dynamic>(4);
+}
+
+TEST(IsotropicCone, IsNoneWhereWIsSingular) {
+  ExactLocal<3> local;
+  local.set(Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal(), 1.0, 0.5, 0.5);
+  EXPECT_FALSE(local.isotropic().has_value());
+  local.set(Eigen::Vector3d(0.0, 1.0, 1.0).asDiagonal(), 1.0, 0.5, 0.5);
+  EXPECT_FALSE(local.isotropic().has_value());
 }
 
 // q_n just short of (mu - theta)|q_t|: a slide so small that rounding cannot tell it from opening.
