@@ -11,6 +11,7 @@ set(conebench_problems_headers
   problems/siconos_dat.h problems/sparse.h problems/spectrum.h problems/suggest.h)
 set(conebench_solvers_headers
   solvers/certificate.h solvers/external.h solvers/iteration.h solvers/local/exact.h
+  solvers/local/isotropic.h solvers/local/outcome.h
   solvers/method.h solvers/monitor.h solvers/registry.h solvers/solver.h solvers/variant_text.h)
 set(conebench_dem_headers
   dem/assembly.h dem/bodies.h dem/contacts.h dem/energy.h dem/export.h dem/generators/arch.h
