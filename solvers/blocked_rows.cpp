@@ -160,11 +160,9 @@ Eigen::MatrixXd BlockedRows::diagonal_block(int i, int dim) const {
   return W;
 }
 
-Eigen::VectorXd BlockedRows::scaled_velocity(const Problem& problem,
-                                             const Eigen::VectorXd& r) const {
+Eigen::VectorXd BlockedRows::free_velocity(const Problem& problem) const {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(scaled_dofs_);
-  y.head(problem.dofs()) =
-      problem.inertia().inverse_root().transpose() * (problem.f() + problem.H().transpose() * r);
+  y.head(problem.dofs()) = problem.inertia().inverse_root().transpose() * problem.f();
   return y;
 }
 

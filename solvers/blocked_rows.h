@@ -53,8 +53,8 @@ class BlockedRows {
 
   Eigen::MatrixXd diagonal_block(int i, int dim) const;
 
-  /// y for reactions r: F^T f + sum_i B_i^T r_i.
-  Eigen::VectorXd scaled_velocity(const problems::Problem& problem, const Eigen::VectorXd& r) const;
+  /// y without reactions: F^T f.
+  Eigen::VectorXd free_velocity(const problems::Problem& problem) const;
 
   /// Numbers in all blocks.
   double numbers() const { return static_cast<double>(values_.size()); }

@@ -23,6 +23,12 @@ namespace {
 
 constexpr int kMostSlabs = 128;
 constexpr std::size_t kLongestPiece = 256;
+// What it costs to take a stretch, in cones solved meanwhile, where it has as many: the first meet
+// bodies that come from another core.
+constexpr int kStretch = 16;
+// Share of Graham's bound that a colour's threads wait for the last of them: they begin with the
+// same stretches each time and help each other out.
+constexpr double kUneven = 0.25;
 // Slabs that take so much longer than the work evenly divided are weighed against pieces.
 constexpr double kWellDivided = 1.3;
 
@@ -68,22 +74,22 @@ Stretches pieces(const std::vector<int>& cones, std::size_t length) {
   return all;
 }
 
-// Cones in sequence where `threads` take one stretch after another: their share, and half of what
+// Cones in sequence where `threads` take one stretch after another: their share, and some of what
 // the longest stretch may add (Graham's bound), since nobody knows what each cone will cost. Memory
-// is read in the order of the problem; to skip cones costs as much as one more, to take a stretch
-// likewise.
+// is read in the order of the problem; to skip cones costs as much as one more.
 double in_sequence(const Stretches& stretches, int threads) {
   int longest = 0, all = 0;
   for (int s = 0; s < stretches.count(); ++s) {
-    int work = 1, next = -1;
-    for (const int i : stretches.stretch(s)) {
+    const auto cones = stretches.stretch(s);
+    int work = std::min(kStretch, static_cast<int>(cones.size())), next = -1;
+    for (const int i : cones) {
       work += i == next ? 1 : 2;
       next = i + 1;
     }
     longest = std::max(longest, work);
     all += work;
   }
-  return std::max(1.0 * all / threads + 0.5 * longest * (1.0 - 1.0 / threads), 1.0 * longest);
+  return std::max(1.0 * all / threads + kUneven * longest * (1.0 - 1.0 / threads), 1.0 * longest);
 }
 
 // First fit; what finds none of 64 colours is left.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solvers/blocked_rows.h"
+#include "solvers/with_dimension.h"
 
 namespace conebench::solvers {
 
@@ -20,7 +21,7 @@ template <class Products>
 class VelocityCoupling {
  public:
   VelocityCoupling(const problems::Problem& problem, BlockedRows rows)
-      : problem_(problem), rows_(std::move(rows)) {}
+      : problem_(problem), rows_(std::move(rows)), free_(rows_.free_velocity(problem)) {}
 
   const BlockedRows& rows() const { return rows_; }
   /// Of the blocks, their indices and y.
@@ -28,7 +29,18 @@ class VelocityCoupling {
     return rows_.bytes() + sizeof(double) * static_cast<std::size_t>(rows_.scaled_dofs());
   }
 
-  void refresh(const Eigen::VectorXd& r) { y_ = rows_.scaled_velocity(problem_, r); }
+  void refresh(const Eigen::VectorXd& r) {
+    y_ = free_;
+    int at = 0;
+    for (int i = 0; i < problem_.cone_count(); ++i) {
+      const int dim = problem_.cones()[static_cast<std::size_t>(i)].dim;
+      with_dimension(dim, [&]<int D>() {
+        const auto ri = r.segment<D>(at, dim);
+        if ((ri.array() != 0.0).any()) Products::add_reaction(rows_, i, ri, y_.data());
+      });
+      at += dim;
+    }
+  }
 
   Eigen::MatrixXd diagonal_block(int i) const {
     return rows_.diagonal_block(i, problem_.cones()[static_cast<std::size_t>(i)].dim);
@@ -54,7 +66,7 @@ class VelocityCoupling {
  private:
   const problems::Problem& problem_;
   BlockedRows rows_;
-  Eigen::VectorXd y_;
+  Eigen::VectorXd free_, y_;
 };
 
 /// From rows of W.

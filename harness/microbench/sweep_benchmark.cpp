@@ -2,7 +2,7 @@
 // cones have d = 3, beside its floor: max(bytes that a sweep must move / bandwidth at that working
 // set, time of its arithmetic). The arithmetic, local solves and products with H, is timed at the
 // last iterate, where no cone waits for another. Beside it the gain of gs-parallel with two
-// threads.
+// threads, and what an empty parallel region of two costs: no sweep can gain more than that leaves.
 //
 //   build/sweep_benchmark [FILE...]
 //
@@ -140,7 +140,7 @@ double local_solve_time(const Problem& problem, const Eigen::VectorXd& r) {
 // The sweep's products with H at r, each cone's own, waiting for no other: best time per cone. [s]
 double product_time(const Problem& problem, const Eigen::VectorXd& r) {
   const BlockedRows rows(problem);
-  const Eigen::VectorXd y = rows.scaled_velocity(problem, r);
+  const Eigen::VectorXd y = rows.free_velocity(problem);
   Eigen::VectorXd moved = Eigen::VectorXd::Zero(y.size());
   double best = 1e9;
   with_products(rows, [&]<class Products>() {
@@ -182,11 +182,27 @@ double sweep_time(const std::string& variant, const Problem& problem, const Eige
   return best;
 }
 
+// Two threads start and meet, with nothing to do in between. [s]
+double empty_region_time() {
+  constexpr int kRegions = 10'000;
+  double best = 1e9;
+  for (int repetition = 0; repetition < 7; ++repetition) {
+    best = std::min(best, seconds_of([] {
+                      for (int k = 0; k < kRegions; ++k) {
+#pragma omp parallel num_threads(2)
+                        benchmark::ClobberMemory();
+                      }
+                    }));
+  }
+  return best / kRegions;
+}
+
 void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
   Eigen::VectorXd r;
-  double best = 0.0, parallel = 0.0;
+  double best = 0.0, parallel = 0.0, region = 0.0;
   for (auto _ : state) {
     parallel = sweep_time("gs-parallel[threads=2]", problem, guess, r);
+    region = empty_region_time();
     best = sweep_time("gs[form=velocity]", problem, guess, r);
   }
   const double cones = problem.cone_count();
@@ -202,6 +218,8 @@ void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorX
   state.counters["ns_products"] = 1e9 * products;
   state.counters["times_floor"] = best / cones / std::max(moved, local + products);
   state.counters["gain_by_two_threads"] = best / parallel;
+  state.counters["gain_at_most"] = best / (0.5 * best + region);
+  state.counters["ns_region"] = 1e9 * region;
 }
 
 void sweep_file(benchmark::State& state, const std::string& path) {
