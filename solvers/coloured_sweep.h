@@ -20,10 +20,28 @@ class ColouredSweep {
         shares_(threads_) {}
 
   SweepSize sweep(Sweeper<Coupling>& sweeper, Eigen::VectorXd& r) {
-    SweepSize size;
+    return over_cones([&](std::span<const int> cones, SweepSize& size) {
+      for (const int i : cones) sweeper.visit(i, r, size);
+    });
+  }
+
+  /// As solvers::refresh (gs_coupling.h).
+  void refresh(Coupling& coupling, const problems::Problem& problem, const Eigen::VectorXd& r) {
+    coupling.clear();
+    over_cones([&](std::span<const int> cones, SweepSize&) {
+      for (const int i : cones) add_reaction(coupling, problem, i, r);
+    });
+  }
+
+ private:
+  // visit(cones, size) for lists that make up all cones, at the same time where they are apart.
+  // Each thread has a `size` of its own; the sum of them.
+  template <class Visit>
+  SweepSize over_cones(const Visit& visit) {
+    SweepSize all;
     if (colouring_.parallel().empty()) {
-      for (const int i : colouring_.serial()) sweeper.visit(i, r, size);
-      return size;
+      visit(colouring_.serial(), all);
+      return all;
     }
     const LevelsForOne levels;
 #pragma omp parallel num_threads(threads_)
@@ -33,19 +51,18 @@ class ColouredSweep {
       for (const Colouring::Colour& colour : colouring_.parallel()) {
         shares_.deal(thread, threads, colour.count());
         for (int s = shares_.take(thread); s >= 0; s = shares_.take(thread)) {
-          for (const int i : colour.stretch(s)) sweeper.visit(i, r, mine);
+          visit(colour.stretch(s), mine);
         }
 #pragma omp barrier
       }
 #pragma omp master
-      for (const int i : colouring_.serial()) sweeper.visit(i, r, mine);
+      visit(colouring_.serial(), mine);
 #pragma omp critical
-      size.add(mine);
+      all.add(mine);
     }
-    return size;
+    return all;
   }
 
- private:
   // One level of parallel regions while it lives: elsewhere libraries are kept from opening any.
   class LevelsForOne {
    public:

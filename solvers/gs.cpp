@@ -41,7 +41,8 @@ template <class Coupling>
 class GaussSeidel final : public Iteration {
  public:
   GaussSeidel(const Problem& problem, const GaussSeidelSettings& settings, Coupling coupling)
-      : rate_scale_(problem.rate_scale()),
+      : problem_(problem),
+        rate_scale_(problem.rate_scale()),
         symmetric_(settings.symmetric),
         sweeper_(problem, settings.local, settings.omega, settings.regularization,
                  std::move(coupling)),
@@ -59,7 +60,7 @@ class GaussSeidel final : public Iteration {
   }
 
   State advance() override {
-    if (sweeps_ % kSweepsPerRefresh == 0) sweeper_.refresh(r_);
+    if (sweeps_ % kSweepsPerRefresh == 0) refresh();
     ++sweeps_;
     const auto cones = schedule_.next();
     SweepSize size = coloured_ ? coloured_->sweep(sweeper_, r_)
@@ -97,6 +98,12 @@ class GaussSeidel final : public Iteration {
   }
 
  private:
+  void refresh() {
+    if (coloured_) return coloured_->refresh(sweeper_.coupling(), problem_, r_);
+    solvers::refresh(sweeper_.coupling(), problem_, r_);
+  }
+
+  const Problem& problem_;
   double rate_scale_;
   bool symmetric_;
   Sweeper<Coupling> sweeper_;

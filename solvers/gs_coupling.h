@@ -7,7 +7,7 @@ namespace conebench::solvers {
 
 /// How a cone's rate feels the other cones, for one-cone-at-a-time methods. Both couplings have
 ///
-///   refresh(r)        brings the state to reactions r, without the rounding gathered so far
+///   clear()           the state without reactions
 ///   diagonal_block(i) W_ii
 ///   rate(i, at, u)    u_i at the current state; `at` is the cone's first row
 ///   normal_rate(i, at, dim)  its first entry alone, for much less
@@ -29,18 +29,7 @@ class VelocityCoupling {
     return rows_.bytes() + sizeof(double) * static_cast<std::size_t>(rows_.scaled_dofs());
   }
 
-  void refresh(const Eigen::VectorXd& r) {
-    y_ = free_;
-    int at = 0;
-    for (int i = 0; i < problem_.cone_count(); ++i) {
-      const int dim = problem_.cones()[static_cast<std::size_t>(i)].dim;
-      with_dimension(dim, [&]<int D>() {
-        const auto ri = r.segment<D>(at, dim);
-        if ((ri.array() != 0.0).any()) Products::add_reaction(rows_, i, ri, y_.data());
-      });
-      at += dim;
-    }
-  }
+  void clear() { y_ = free_; }
 
   Eigen::MatrixXd diagonal_block(int i) const {
     return rows_.diagonal_block(i, problem_.cones()[static_cast<std::size_t>(i)].dim);
@@ -76,7 +65,7 @@ class DelassusCoupling {
 
   const BlockedDelassus& blocks() const { return W_; }
 
-  void refresh(const Eigen::VectorXd& r) { r_ = r; }
+  void clear() { r_.setZero(problem_.rows()); }
 
   Eigen::MatrixXd diagonal_block(int i) const { return W_.diagonal_block(problem_, i); }
 
@@ -102,6 +91,24 @@ class DelassusCoupling {
   BlockedDelassus W_;
   Eigen::VectorXd r_;
 };
+
+/// Adds r_i to a state without it.
+template <class Coupling>
+void add_reaction(Coupling& coupling, const problems::Problem& problem, int i,
+                  const Eigen::VectorXd& r) {
+  const int dim = problem.cones()[static_cast<std::size_t>(i)].dim;
+  with_dimension(dim, [&]<int D>() {
+    const auto ri = r.segment<D>(problem.start(i), dim);
+    if ((ri.array() != 0.0).any()) coupling.moved(i, ri);
+  });
+}
+
+/// Brings the state to reactions r, without the rounding gathered so far.
+template <class Coupling>
+void refresh(Coupling& coupling, const problems::Problem& problem, const Eigen::VectorXd& r) {
+  coupling.clear();
+  for (int i = 0; i < problem.cone_count(); ++i) add_reaction(coupling, problem, i, r);
+}
 
 /// Whether M and H are there and M is block diagonal.
 inline bool has_velocity_form(const problems::Problem& problem) {

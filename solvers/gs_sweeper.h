@@ -65,8 +65,6 @@ class Sweeper {
     for (int i = 0; i < problem_.cone_count(); ++i) prepare(i);
   }
 
-  void refresh(const Eigen::VectorXd& r) { coupling_.refresh(r); }
-
   /// One pass over `cones`, in order or backward. The change of each cone visited goes to
   /// changes[cone], unless that is empty. r stays finite.
   SweepSize sweep(std::span<const int> cones, bool backward, std::span<double> changes,

@@ -44,9 +44,9 @@ class ProximalCoupling {
     alpha_ = alpha;
   }
 
-  void refresh(const Eigen::VectorXd& r) {
-    coupling_.refresh(r);
-    away_ = r - centre_;
+  void clear() {
+    coupling_.clear();
+    away_ = -centre_;
   }
 
   Eigen::MatrixXd diagonal_block(int i) const {
@@ -97,7 +97,7 @@ class GaussSeidelInner final : public ProximalInner {
   }
 
   bool advance() override {
-    sweeper_.refresh(r_);
+    refresh(sweeper_.coupling(), problem_, r_);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       if (!std::isfinite(sweeper_.sweep(order_, false, {}, r_).change)) return false;
     }

@@ -71,7 +71,7 @@ class Sweeps {
       const bool tested = end || result.iterations % kSweepsPerTest == 0;
       if (tested && law_.eta(problem_, result.r) <= stop.tol) end = Status::kConverged;
       if (end) break;
-      if (tested) coupling_.refresh(result.r);
+      if (tested) refresh(coupling_, problem_, result.r);
       end = sweep(result.r);
       ++result.iterations;
     }

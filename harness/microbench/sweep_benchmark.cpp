@@ -18,7 +18,6 @@
 #include "solvers/blocked_rows.h"
 #include "solvers/gs.h"
 #include "solvers/local/one_cone.h"
-#include "solvers/registry.h"
 
 namespace conebench::solvers {
 namespace {
@@ -165,21 +164,20 @@ double product_time(const Problem& problem, const Eigen::VectorXd& r) {
   return best / problem.cone_count();
 }
 
-// Best time of a sweep within solves of 50 sweeps or more, and the last answer. [s]
-double sweep_time(const std::string& variant, const Problem& problem, const Eigen::VectorXd& guess,
-                  Eigen::VectorXd& r) {
-  const Solver solver = make_solver(variant);
-  const auto sweeps = std::max<std::int64_t>(50, 5'000'000 / std::max(1, problem.cone_count()));
-  Request request;
-  request.stop = {.tol = 1e-300, .max_iterations = sweeps, .test = StopTest::kOwn};
-  request.guess = guess;
+// Best time of a sweep among rounds of 50 sweeps or more from the guess, and the last iterate. [s]
+double sweep_time(const GaussSeidelSettings& settings, const Problem& problem,
+                  const Eigen::VectorXd& guess, Eigen::VectorXd& r) {
+  const int sweeps = std::max(50, 5'000'000 / std::max(1, problem.cone_count()));
+  const auto iteration = make_gauss_seidel(problem, settings);
   double best = 1e9;
   for (int repetition = 0; repetition < 5; ++repetition) {
-    Result result = solver.solve(problem, request);
-    best = std::min(best, result.solve_s / static_cast<double>(result.iterations));
-    r = std::move(result.r);
+    iteration->start(guess);
+    best = std::min(best, seconds_of([&] {
+                      for (int k = 0; k < sweeps; ++k) iteration->advance();
+                    }));
   }
-  return best;
+  r = iteration->r();
+  return best / sweeps;
 }
 
 // Two threads start and meet, with nothing to do in between. [s]
@@ -197,13 +195,15 @@ double empty_region_time() {
   return best / kRegions;
 }
 
-void sweep(benchmark::State& state, const Problem& problem, const Eigen::VectorXd& guess) {
+// No guess: from r = 0.
+void sweep(benchmark::State& state, const Problem& problem, Eigen::VectorXd guess) {
+  if (guess.size() == 0) guess = Eigen::VectorXd::Zero(problem.rows());
   Eigen::VectorXd r;
   double best = 0.0, parallel = 0.0, region = 0.0;
   for (auto _ : state) {
-    parallel = sweep_time("gs-parallel[threads=2]", problem, guess, r);
+    parallel = sweep_time({.threads = 2}, problem, guess, r);
     region = empty_region_time();
-    best = sweep_time("gs[form=velocity]", problem, guess, r);
+    best = sweep_time({}, problem, guess, r);
   }
   const double cones = problem.cone_count();
   const auto bytes = static_cast<double>(gauss_seidel_sweep_bytes(problem));

@@ -100,7 +100,7 @@ template <class Vector>
 void expect_felt(const Problem& problem, bool velocity) {
   Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.rows(), -1.0, 2.0);
   with_coupling(problem, velocity, [&](auto coupling) {
-    coupling.refresh(r);
+    refresh(coupling, problem, r);
     const Vector change = Eigen::Vector3d(0.3, -0.2, 0.5);
     coupling.moved(11, change);
     r.segment<3>(problem.start(11)) += change;
