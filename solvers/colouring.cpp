@@ -76,14 +76,14 @@ Stretches pieces(const std::vector<int>& cones, std::size_t length) {
 
 // Cones in sequence where `threads` take one stretch after another: their share, and some of what
 // the longest stretch may add (Graham's bound), since nobody knows what each cone will cost. Memory
-// is read in the order of the problem; to skip cones costs as much as one more.
+// is read in the order of the problem; to skip cones costs as much as two more.
 double in_sequence(const Stretches& stretches, int threads) {
   int longest = 0, all = 0;
   for (int s = 0; s < stretches.count(); ++s) {
     const auto cones = stretches.stretch(s);
     int work = std::min(kStretch, static_cast<int>(cones.size())), next = -1;
     for (const int i : cones) {
-      work += i == next ? 1 : 2;
+      work += i == next ? 1 : 3;
       next = i + 1;
     }
     longest = std::max(longest, work);
