@@ -79,7 +79,8 @@ template <int L>
 struct RunProducts {
   /// u += B_i y.
   template <class Vector>
-  static void add_rate(const BlockedRows& rows, int i, const double* y, Vector& u) {
+  [[gnu::always_inline]] static void add_rate(const BlockedRows& rows, int i, const double* y,
+                                              Vector& u) {
     constexpr int D = Vector::RowsAtCompileTime;
     using Block =
         Eigen::Matrix<double, D, L, (D == 1 || L > 1) ? Eigen::RowMajor : Eigen::ColMajor>;
@@ -92,7 +93,8 @@ struct RunProducts {
   }
 
   /// The first row of B_i times y; dim is the cone's dimension.
-  static double normal_rate(const BlockedRows& rows, int i, int dim, const double* y) {
+  [[gnu::always_inline]] static double normal_rate(const BlockedRows& rows, int i, int dim,
+                                                   const double* y) {
     const double* block = rows.blocks(i);
     double sum = 0.0;
     for (const int run : rows.runs(i)) {
@@ -104,7 +106,8 @@ struct RunProducts {
 
   /// y += B_i^T x.
   template <class Vector>
-  static void add_reaction(const BlockedRows& rows, int i, const Vector& x, double* y) {
+  [[gnu::always_inline]] static void add_reaction(const BlockedRows& rows, int i, const Vector& x,
+                                                  double* y) {
     const double* block = rows.blocks(i);
     for (const int run : rows.runs(i)) {
       add_transposed(block, x, y + run);
@@ -145,7 +148,8 @@ struct SphereProducts {
       Vector::RowsAtCompileTime == 3 || Vector::RowsAtCompileTime == Eigen::Dynamic;
 
   template <class Vector>
-  static void add_rate(const BlockedRows& rows, int i, const double* y, Vector& u) {
+  [[gnu::always_inline]] static void add_rate(const BlockedRows& rows, int i, const double* y,
+                                              Vector& u) {
     if constexpr (kMayHaveThree<Vector>) {
       const double *R = rows.blocks(i), *scales = R + 9;
       double v[3] = {}, omega[3] = {};
@@ -163,7 +167,8 @@ struct SphereProducts {
     }
   }
 
-  static double normal_rate(const BlockedRows& rows, int i, int /*dim*/, const double* y) {
+  [[gnu::always_inline]] static double normal_rate(const BlockedRows& rows, int i, int /*dim*/,
+                                                   const double* y) {
     const double *n = rows.blocks(i), *scales = n + 9;
     double sum = 0.0;
     for (const int run : rows.runs(i)) {
@@ -174,7 +179,8 @@ struct SphereProducts {
   }
 
   template <class Vector>
-  static void add_reaction(const BlockedRows& rows, int i, const Vector& x, double* y) {
+  [[gnu::always_inline]] static void add_reaction(const BlockedRows& rows, int i, const Vector& x,
+                                                  double* y) {
     if constexpr (kMayHaveThree<Vector>) {
       const double *R = rows.blocks(i), *scales = R + 9;
       double force[3], torque[3];

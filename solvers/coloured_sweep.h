@@ -8,8 +8,9 @@
 
 namespace conebench::solvers {
 
-/// A sweep over all cones colour by colour, each colour by several threads. The numbers do not
-/// depend on how many. Cost beyond the cones': one barrier a colour.
+/// Sweeps over all cones, and what brings velocities to their reactions, colour by colour, each
+/// colour by several threads. The numbers do not depend on how many. Cost beyond the cones': one
+/// barrier a colour.
 template <class Coupling>
 class ColouredSweep {
  public:
@@ -34,8 +35,8 @@ class ColouredSweep {
   }
 
  private:
-  // visit(cones, size) for lists that make up all cones, at the same time where they are apart.
-  // Each thread has a `size` of its own; the sum of them.
+  // Calls visit(cones, size) for every stretch, at the same time for those of a colour. Each thread
+  // has a `size` of its own; returns their sum.
   template <class Visit>
   SweepSize over_cones(const Visit& visit) {
     SweepSize all;

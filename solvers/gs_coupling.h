@@ -7,7 +7,7 @@ namespace conebench::solvers {
 
 /// How a cone's rate feels the other cones, for one-cone-at-a-time methods. Both couplings have
 ///
-///   clear()           the state without reactions
+///   clear()           the state without reactions; first of all
 ///   diagonal_block(i) W_ii
 ///   rate(i, at, u)    u_i at the current state; `at` is the cone's first row
 ///   normal_rate(i, at, dim)  its first entry alone, for much less
@@ -21,7 +21,10 @@ template <class Products>
 class VelocityCoupling {
  public:
   VelocityCoupling(const problems::Problem& problem, BlockedRows rows)
-      : problem_(problem), rows_(std::move(rows)), free_(rows_.free_velocity(problem)) {}
+      : problem_(problem),
+        w_(problem.w()),
+        rows_(std::move(rows)),
+        free_(rows_.free_velocity(problem)) {}
 
   const BlockedRows& rows() const { return rows_; }
   /// Of the blocks, their indices and y.
@@ -35,25 +38,26 @@ class VelocityCoupling {
     return rows_.diagonal_block(i, problem_.cones()[static_cast<std::size_t>(i)].dim);
   }
 
-  double normal_rate(int i, int at, int dim) const {
-    return problem_.w()(at) + Products::normal_rate(rows_, i, dim, y_.data());
+  [[gnu::always_inline]] double normal_rate(int i, int at, int dim) const {
+    return w_(at) + Products::normal_rate(rows_, i, dim, y_.data());
   }
 
   template <class Vector>
-  void rate(int i, int at, Vector& u) const {
+  [[gnu::always_inline]] void rate(int i, int at, Vector& u) const {
     constexpr int D = Vector::RowsAtCompileTime;
-    Vector sum = problem_.w().segment<D>(at, u.size());
+    Vector sum = w_.segment<D>(at, u.size());
     Products::add_rate(rows_, i, y_.data(), sum);
     u = sum;
   }
 
   template <class Vector>
-  void moved(int i, const Vector& change) {
+  [[gnu::always_inline]] void moved(int i, const Vector& change) {
     Products::add_reaction(rows_, i, change, y_.data());
   }
 
  private:
   const problems::Problem& problem_;
+  const Eigen::VectorXd& w_;
   BlockedRows rows_;
   Eigen::VectorXd free_, y_;
 };
@@ -61,7 +65,8 @@ class VelocityCoupling {
 /// From rows of W.
 class DelassusCoupling {
  public:
-  explicit DelassusCoupling(const problems::Problem& problem) : problem_(problem), W_(problem) {}
+  explicit DelassusCoupling(const problems::Problem& problem)
+      : problem_(problem), q_(problem.q()), W_(problem) {}
 
   const BlockedDelassus& blocks() const { return W_; }
 
@@ -69,14 +74,12 @@ class DelassusCoupling {
 
   Eigen::MatrixXd diagonal_block(int i) const { return W_.diagonal_block(problem_, i); }
 
-  double normal_rate(int i, int at, int dim) const {
-    return problem_.q()(at) + W_.normal_rate(i, dim, r_);
-  }
+  double normal_rate(int i, int at, int dim) const { return q_(at) + W_.normal_rate(i, dim, r_); }
 
   template <class Vector>
   void rate(int i, int at, Vector& u) const {
     constexpr int D = Vector::RowsAtCompileTime;
-    Vector sum = problem_.q().segment<D>(at, u.size());
+    Vector sum = q_.segment<D>(at, u.size());
     W_.add_rate(i, r_, sum);
     u = sum;
   }
@@ -88,6 +91,7 @@ class DelassusCoupling {
 
  private:
   const problems::Problem& problem_;
+  const Eigen::VectorXd& q_;
   BlockedDelassus W_;
   Eigen::VectorXd r_;
 };

@@ -42,7 +42,9 @@ using MakeIteration = std::function<std::unique_ptr<Iteration>(const problems::P
 
 /// Runs an iteration from `guess` until the monitor, the own test or the iteration itself says
 /// stop. With StopTest::kOwn an estimate below the tolerance is verified with eta itself, inside
-/// the clock, at most every 10 % of further iterations.
+/// the clock, at most every 10 % of further iterations; an answer that has not converged is the
+/// last iterate, or one whose own eta is within a tenth of the best there was, where that is
+/// better.
 Result drive(Iteration& iteration, const problems::Problem& problem, const Stop& stop,
              const Eigen::VectorXd& guess, Monitor& monitor);
 

@@ -21,9 +21,9 @@ class IsotropicCone {
   bool stays_open(double un) const { return un >= 0.0; }
 
   template <class Vector>
-  LocalOutcome solve(const Vector& u, Vector& r) const {
+  [[gnu::always_inline]] LocalOutcome solve(const Vector& u, Vector& r) const {
     const double rn = r(0) - normal_ * u(0);
-    if (!(rn > 0.0)) {
+    if (rn <= 0.0) {  // not where rn is NaN: that shows in the answer
       r.setZero();
       return LocalOutcome::kDone;
     }

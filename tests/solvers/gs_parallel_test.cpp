@@ -236,6 +236,8 @@ Eigen::VectorXd after_sweeps(const Problem& problem, int threads) {
   const auto sweeps = make_gauss_seidel(problem, {.threads = threads});
   sweeps->start(Eigen::VectorXd::Zero(problem.rows()));
   for (int k = 0; k < 40; ++k) sweeps->advance();
+  sweeps->start(Eigen::VectorXd(sweeps->r()));  // takes up what is there, by all threads
+  for (int k = 0; k < 10; ++k) sweeps->advance();
   return sweeps->r();
 }
 
@@ -245,6 +247,24 @@ TEST(GaussSeidelParallel, ThreadsChangeNoBit) {
     EXPECT_EQ(after_sweeps(problem, 2), one);
     EXPECT_EQ(after_sweeps(problem, 5), one);
     EXPECT_GT(one.norm(), 0.0);
+  }
+}
+
+// To begin again where sweeps are is to go on.
+TEST(GaussSeidelParallel, TakesUpReactions) {
+  for (const Problem& problem : {heap(6000), chain(4000, true)}) {
+    for (const std::optional<int> threads : {std::optional<int>(), std::optional<int>(3)}) {
+      const auto sweeps = make_gauss_seidel(problem, {.threads = threads});
+      sweeps->start(Eigen::VectorXd::Zero(problem.rows()));
+      for (int k = 0; k < 20; ++k) sweeps->advance();
+      const Eigen::VectorXd there = sweeps->r();
+      sweeps->advance();
+      const Eigen::VectorXd next = sweeps->r();
+      EXPECT_GT((next - there).norm(), 1e-6 * next.norm());
+      sweeps->start(there);
+      sweeps->advance();
+      EXPECT_LE((sweeps->r() - next).norm(), 1e-9 * next.norm());
+    }
   }
 }
 

@@ -125,6 +125,16 @@ TEST(IsotropicCone, SolvesWhatTheGeneralOneDoes) {
   expect_isotropic_solved<Eigen::Dynamic>(4);
 }
 
+// So that a sweep sees it.
+TEST(IsotropicCone, AnswersNaNWithNaN) {
+  for (const int entry : {0, 1, 2}) {
+    Eigen::Vector3d u(-1.0, 0.5, 0.2), r(1.0, 0.0, 0.0);
+    u(entry) = std::numeric_limits<double>::quiet_NaN();
+    IsotropicCone(1.0, 2.0, 0.5).solve(u, r);
+    EXPECT_FALSE(r.allFinite()) << entry;
+  }
+}
+
 TEST(IsotropicCone, IsNoneWhereWIsSingular) {
   ExactLocal<3> local;
   local.set(Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal(), 1.0, 0.5, 0.5);
