@@ -79,8 +79,7 @@ template <int L>
 struct RunProducts {
   /// u += B_i y.
   template <class Vector>
-  [[gnu::always_inline]] static void add_rate(const BlockedRows& rows, int i, const double* y,
-                                              Vector& u) {
+  static void add_rate(const BlockedRows& rows, int i, const double* y, Vector& u) {
     constexpr int D = Vector::RowsAtCompileTime;
     using Block =
         Eigen::Matrix<double, D, L, (D == 1 || L > 1) ? Eigen::RowMajor : Eigen::ColMajor>;
@@ -93,8 +92,7 @@ struct RunProducts {
   }
 
   /// The first row of B_i times y; dim is the cone's dimension.
-  [[gnu::always_inline]] static double normal_rate(const BlockedRows& rows, int i, int dim,
-                                                   const double* y) {
+  static double normal_rate(const BlockedRows& rows, int i, int dim, const double* y) {
     const double* block = rows.blocks(i);
     double sum = 0.0;
     for (const int run : rows.runs(i)) {
@@ -106,8 +104,7 @@ struct RunProducts {
 
   /// y += B_i^T x.
   template <class Vector>
-  [[gnu::always_inline]] static void add_reaction(const BlockedRows& rows, int i, const Vector& x,
-                                                  double* y) {
+  static void add_reaction(const BlockedRows& rows, int i, const Vector& x, double* y) {
     const double* block = rows.blocks(i);
     for (const int run : rows.runs(i)) {
       add_transposed(block, x, y + run);
@@ -148,8 +145,7 @@ struct SphereProducts {
       Vector::RowsAtCompileTime == 3 || Vector::RowsAtCompileTime == Eigen::Dynamic;
 
   template <class Vector>
-  [[gnu::always_inline]] static void add_rate(const BlockedRows& rows, int i, const double* y,
-                                              Vector& u) {
+  static void add_rate(const BlockedRows& rows, int i, const double* y, Vector& u) {
     if constexpr (kMayHaveThree<Vector>) {
       const double *R = rows.blocks(i), *scales = R + 9;
       double v[3] = {}, omega[3] = {};
@@ -167,8 +163,7 @@ struct SphereProducts {
     }
   }
 
-  [[gnu::always_inline]] static double normal_rate(const BlockedRows& rows, int i, int /*dim*/,
-                                                   const double* y) {
+  static double normal_rate(const BlockedRows& rows, int i, int /*dim*/, const double* y) {
     const double *n = rows.blocks(i), *scales = n + 9;
     double sum = 0.0;
     for (const int run : rows.runs(i)) {
@@ -179,8 +174,7 @@ struct SphereProducts {
   }
 
   template <class Vector>
-  [[gnu::always_inline]] static void add_reaction(const BlockedRows& rows, int i, const Vector& x,
-                                                  double* y) {
+  static void add_reaction(const BlockedRows& rows, int i, const Vector& x, double* y) {
     if constexpr (kMayHaveThree<Vector>) {
       const double *R = rows.blocks(i), *scales = R + 9;
       double force[3], torque[3];

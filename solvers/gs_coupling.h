@@ -38,12 +38,12 @@ class VelocityCoupling {
     return rows_.diagonal_block(i, problem_.cones()[static_cast<std::size_t>(i)].dim);
   }
 
-  [[gnu::always_inline]] double normal_rate(int i, int at, int dim) const {
+  double normal_rate(int i, int at, int dim) const {
     return w_(at) + Products::normal_rate(rows_, i, dim, y_.data());
   }
 
   template <class Vector>
-  [[gnu::always_inline]] void rate(int i, int at, Vector& u) const {
+  void rate(int i, int at, Vector& u) const {
     constexpr int D = Vector::RowsAtCompileTime;
     Vector sum = w_.segment<D>(at, u.size());
     Products::add_rate(rows_, i, y_.data(), sum);
@@ -51,7 +51,7 @@ class VelocityCoupling {
   }
 
   template <class Vector>
-  [[gnu::always_inline]] void moved(int i, const Vector& change) {
+  void moved(int i, const Vector& change) {
     Products::add_reaction(rows_, i, change, y_.data());
   }
 

@@ -42,6 +42,14 @@ struct SweepSize {
   }
 };
 
+// Calls within an update would cost as much as what they do: all are inlined, but not where code is
+// instrumented, which would take minutes to compile.
+#ifdef __SANITIZE_ADDRESS__
+#define CONEBENCH_FLATTEN
+#else
+#define CONEBENCH_FLATTEN [[gnu::flatten]]
+#endif
+
 /// The one-cone solves of Gauss-Seidel over a coupling (gs_coupling.h).
 template <class Coupling>
 class Sweeper {
@@ -86,10 +94,7 @@ class Sweeper {
     ++size.failures.solved;
     const Place& place = places_[static_cast<std::size_t>(i)];
     return with_dimension(place.dim, [&]<int D>() {
-      if (place.isotropic) {
-        if constexpr (D == 3) return update_isotropic(i, place, r, size);
-        return update<D>(i, place, isotropic_[place.index], r, size);
-      }
+      if (place.isotropic) return update<D>(i, place, isotropic_[place.index], r, size);
       return update<D>(i, place, locals<D>()[place.index], r, size);
     });
   }
@@ -142,7 +147,8 @@ class Sweeper {
   }
 
   template <int D, class Local>
-  double update(int i, const Place& place, Local& local, Eigen::VectorXd& r, SweepSize& size) {
+  CONEBENCH_FLATTEN double update(int i, const Place& place, Local& local, Eigen::VectorXd& r,
+                                  SweepSize& size) {
     using Vector = Eigen::Matrix<double, D, 1>;
     auto ri = r.template segment<D>(place.at, place.dim);
     if ((ri.array() == 0.0).all() &&
@@ -172,12 +178,6 @@ class Sweeper {
     return moved;
   }
 
-  // Flattened: calls inside would cost a tenth of all.
-  [[gnu::flatten]] double update_isotropic(int i, const Place& place, Eigen::VectorXd& r,
-                                           SweepSize& size) {
-    return update<3>(i, place, isotropic_[place.index], r, size);
-  }
-
   static void note(int i, LocalOutcome outcome, LocalFailures& failures) {
     if (outcome == LocalOutcome::kStopped) ++failures.stopped;
     if (outcome == LocalOutcome::kNoSolution) failures.add({.unsolvable = i});
@@ -193,5 +193,7 @@ class Sweeper {
   std::vector<IsotropicCone> isotropic_;  // of any dimension
   std::vector<Place> places_;
 };
+
+#undef CONEBENCH_FLATTEN
 
 }  // namespace conebench::solvers

@@ -21,7 +21,7 @@ class IsotropicCone {
   bool stays_open(double un) const { return un >= 0.0; }
 
   template <class Vector>
-  [[gnu::always_inline]] LocalOutcome solve(const Vector& u, Vector& r) const {
+  LocalOutcome solve(const Vector& u, Vector& r) const {
     const double rn = r(0) - normal_ * u(0);
     if (rn <= 0.0) {  // not where rn is NaN: that shows in the answer
       r.setZero();
