@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solvers/central_pair.h"
+
 namespace conebench::solvers {
 namespace {
 
@@ -12,7 +14,7 @@ using problems::Problem;
 using State = Iteration::State;
 
 constexpr double kSecondsPerRow = 8e-7;  // of an iteration without its linear system (work_s)
-constexpr double kToBoundary = 0.995;    // share of the way to the cone's boundary
+constexpr double kToBoundary = 0.98;     // share of the way to the cone's boundary
 constexpr double kLeastPush = 1e-12, kLargestPush = 1.0;  // into the interior, as shares of U
 // Cones of less mobility than this share of the largest start from no larger a reaction.
 constexpr double kLeastMobility = 1e-4;
@@ -40,24 +42,42 @@ void InteriorPoint::pose(const Eigen::VectorXd& shift, const Eigen::VectorXd& r)
   const Eigen::VectorXd u = problem_.rate(r);
   const Eigen::VectorXd t = coulomb_ ? de_saxce_shift(problem_, u) : posed_;
   const double violation = convex_error(problem_, t, r, u);
-  const double push = std::clamp(10.0 * violation, kLeastPush, kLargestPush) * scale();
   r_ = x_ = Eigen::VectorXd::Zero(problem_.rows());
   for (int i = 0; i < problem_.cone_count(); ++i) {
     const int at = problem_.start(i), dim = cone(i).dim;
-    const double lambda = problem_.mobility()(i), mu = cone(i).mu;
+    const double lambda = problem_.mobility()(i);
     Eigen::VectorXd z = r.segment(at, dim) - u.segment(at, dim) / lambda;
     z(0) -= t(i) / lambda;
     Eigen::VectorXd projected = z;
-    problems::project(mu, projected);
+    problems::project(cone(i).mu, projected);
     r_.segment(at, dim) = projected;
     x_.segment(at, dim) = lambda * (projected - z);
-    // As far from the boundary in either cone, whatever mu.
-    const double size = std::max(lambda, kLeastMobility * problem_.mobility().maxCoeff());
-    r_(at) += push / size * std::max(1.0, 1.0 / std::max(mu, 0.1));
-    x_(at) += push * std::max(1.0, mu);
+    if (coulomb_) {
+      centre_cone(i);
+    } else {
+      push_inside(i, 10.0 * violation);
+    }
   }
   u_ = problem_.rate(r_);
   update();
+}
+
+void InteriorPoint::centre_cone(int i) {
+  const int at = problem_.start(i), dim = cone(i).dim;
+  const double gap = start_ * scale();
+  centre(cone(i).mu, problem_.mobility()(i), gap * gap / size_of(i), r_.segment(at, dim),
+         x_.segment(at, dim));
+}
+
+// As far from the boundary in either cone, whatever mu.
+void InteriorPoint::push_inside(int i, double share) {
+  const double push = std::clamp(share, kLeastPush, kLargestPush) * scale();
+  r_(problem_.start(i)) += push / size_of(i) * std::max(1.0, 1.0 / std::max(cone(i).mu, 0.1));
+  x_(problem_.start(i)) += push * std::max(1.0, cone(i).mu);
+}
+
+double InteriorPoint::size_of(int i) const {
+  return std::max(problem_.mobility()(i), kLeastMobility * problem_.mobility().maxCoeff());
 }
 
 State InteriorPoint::advance(double) {

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <vector>
 
 #include "solvers/aclm.h"
+#include "solvers/gs.h"
+#include "solvers/gs_coupling.h"
 #include "solvers/interior_point.h"
 
 namespace conebench::solvers {
@@ -19,23 +22,36 @@ std::unique_ptr<ConvexIteration> make_interior_point(const Problem& problem, For
   return std::make_unique<InteriorPoint>(problem, form, false);
 }
 
-// The smoothing of a first attempt, and of another after a trap.
-constexpr double kSmoothings[] = {0.1, 1.0};
+// How far from the cones' boundaries an attempt begins (InteriorPoint::start_at), the first at the
+// guess, the others at r = 0, and its smoothing: other paths, where one is trapped.
+struct Attempt {
+  double start, smoothing;
+};
+constexpr Attempt kAttempts[] = {{1.0, 0.1}, {10.0, 0.1}, {1.0, 1.0}};
 // An attempt whose gap has not halved in so many iterations is trapped.
 constexpr int kPatience = 5;
 // A trap below this eta is rounding: there the fixed point goes on.
 constexpr double kRounding = 1e-6;
+// Sweeps from an iterate take this share of its work, but are at least one and at most so many.
+constexpr double kSweepShare = 0.15;
+constexpr double kMostSweeps = 20.0;
+
+// Not where W would have to be formed for them.
+bool can_sweep(const Problem& problem) {
+  return !problem.is_primal() || has_velocity_form(problem);
+}
 
 class CoulombInteriorPoint final : public Iteration {
  public:
   explicit CoulombInteriorPoint(const Problem& problem)
-      : problem_(problem), direct_(problem, Form::kAuto, true) {}
+      : problem_(problem), direct_(problem, Form::kAuto, true) {
+    if (can_sweep(problem)) sweeps_ = make_gauss_seidel(problem);
+  }
 
   void start(const Eigen::VectorXd& r) override {
     fixed_point_.reset();
-    best_ = r;
-    const Eigen::VectorXd u = problem_.rate(r);
-    eta_ = convex_error(problem_, de_saxce_shift(problem_, u), r, u);
+    best_ = guess_ = r;
+    eta_ = eta_of(r);
     attempt_ = 0;
     attempt();
   }
@@ -43,15 +59,18 @@ class CoulombInteriorPoint final : public Iteration {
   State advance() override {
     if (problem_.cone_count() == 0) return State::kStalled;
     if (fixed_point_) {
+      const double before = fixed_point_->work_s();
       const State state = fixed_point_->advance();
       keep_best(fixed_point_->own_eta(), fixed_point_->r());
+      sweep(fixed_point_->r(), fixed_point_->work_s() - before);
       return state;
     }
     const State state = direct_.advance(0.0);
     work_s_ += direct_.step_work_s();
     keep_best(direct_.eta(), direct_.r());
+    sweep(direct_.r(), direct_.step_work_s());
     if (state == State::kRunning && !trapped()) return state;
-    if (++attempt_ < std::size(kSmoothings) && eta_ > kRounding) {
+    if (++attempt_ < std::size(kAttempts) && eta_ > kRounding) {
       attempt();
     } else {
       fixed_point_ = make_aclm(problem_, make_interior_point(problem_, Form::kAuto), {});
@@ -74,10 +93,10 @@ class CoulombInteriorPoint final : public Iteration {
   }
 
  private:
-  // From r = 0: a guess is too near the cones' boundaries to begin with.
   void attempt() {
-    direct_.smooth(kSmoothings[attempt_]);
-    direct_.pose({}, Eigen::VectorXd::Zero(problem_.rows()));
+    direct_.start_at(kAttempts[attempt_].start);
+    direct_.smooth(kAttempts[attempt_].smoothing);
+    direct_.pose({}, attempt_ == 0 ? guess_ : Eigen::VectorXd::Zero(problem_.rows()).eval());
     gaps_.assign(1, direct_.gap());
   }
 
@@ -85,6 +104,25 @@ class CoulombInteriorPoint final : public Iteration {
     gaps_.push_back(direct_.gap());
     if (gaps_.size() <= kPatience) return false;
     return !(gaps_.back() <= 0.5 * gaps_[gaps_.size() - 1 - kPatience]);
+  }
+
+  // The iterate balances forces everywhere and smooths the law of every cone; sweeps sharpen it.
+  void sweep(const Eigen::VectorXd& r, double work_s) {
+    if (!sweeps_ || !r.allFinite()) return;
+    sweeps_->start(r);
+    const double before = sweeps_->work_s();
+    const double one = gauss_seidel_sweep_work_s(problem_);
+    const double count = std::clamp(kSweepShare * work_s / one, 1.0, kMostSweeps);
+    for (int k = 0; k < static_cast<int>(count); ++k) {
+      if (sweeps_->advance() != State::kRunning) break;
+    }
+    work_s_ += sweeps_->work_s() - before;
+    keep_best(eta_of(sweeps_->r()), sweeps_->r());
+  }
+
+  double eta_of(const Eigen::VectorXd& r) const {
+    const Eigen::VectorXd u = problem_.rate(r);
+    return convex_error(problem_, de_saxce_shift(problem_, u), r, u);
   }
 
   void keep_best(double eta, const Eigen::VectorXd& r) {
@@ -95,8 +133,9 @@ class CoulombInteriorPoint final : public Iteration {
 
   const Problem& problem_;
   InteriorPoint direct_;
+  std::unique_ptr<Iteration> sweeps_;       // where they need no W
   std::unique_ptr<Iteration> fixed_point_;  // once the direct method is trapped
-  Eigen::VectorXd best_;
+  Eigen::VectorXd guess_, best_;
   double eta_ = 0.0;
   double work_s_ = 0.0;  // of the direct method
   std::size_t attempt_ = 0;

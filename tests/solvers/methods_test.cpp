@@ -190,66 +190,6 @@ TEST(InteriorPoint, QuasidefiniteFormSolvesPrimalProblemsAndRefusesReducedOnes) 
   EXPECT_FALSE(solver.supports(block_on_slope(0.3, 0.5, true)));
 }
 
-TEST(InteriorPoint, QuasidefiniteFormFindsMadeSolutionsOfAllDimensions) {
-  const Solver solver = make_solver("aclm-ipm[form=kkt]");
-  for (const double theta_share : {0.0, 1.0}) {
-    for (const std::vector<int>& dims :
-         {std::vector<int>{1}, {2}, {3}, {6}, {4}, std::vector<int>{3, 1, 6, 2}}) {
-      const Problem problem = problems::make_backwards({.cones = 12,
-                                                        .dims = dims,
-                                                        .mu_high = 0.5,
-                                                        .theta_share = theta_share,
-                                                        .cohesive_share = 0.5,
-                                                        .seed = 21})
-                                  .problem.shifted();
-      const Result result = solver.solve(problem, {{.tol = 1e-8}, {}, nullptr});
-      const double eta = problems::evaluate_eta(problem, result.r);
-      EXPECT_LE(eta, 1e-8) << problem.name();
-      EXPECT_EQ(result.status, Status::kConverged) << problem.name();
-    }
-  }
-}
-
-// Strong friction on fewer dofs than rows: of some of these the path to the solution has a fold.
-TEST(InteriorPoint, BeginsAgainWhereItsFirstAttemptIsTrapped) {
-  const Solver solver = make_solver("ipm");
-  const auto says = [](const Result& result, const char* what) {
-    return std::ranges::any_of(result.notes, [what](const std::string& note) {
-      return note.find(what) != std::string::npos;
-    });
-  };
-  int solved_again = 0;
-  for (const double mass_ratio : {10.0, 1e4}) {
-    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
-      const Problem problem = problems::make_backwards({.family = Family::kRankDeficient,
-                                                        .cones = 40,
-                                                        .mu_low = 0.75,
-                                                        .mu_high = 1.5,
-                                                        .mass_ratio = mass_ratio,
-                                                        .seed = seed})
-                                  .problem;
-      const Result result =
-          solver.solve(problem, {{.tol = 1e-7, .max_iterations = 60}, {}, nullptr});
-      const bool again = says(result, "trapped") && !says(result, "aclm-ipm");
-      if (again && problems::evaluate_eta(problem, result.r) <= 1e-7) ++solved_again;
-    }
-  }
-  EXPECT_GE(solved_again, 1);
-}
-
-TEST(InteriorPoint, TakesTheSamePathFromEveryGuess) {
-  const problems::MadeProblem made = problems::make_backwards({.cones = 15, .seed = 3});
-  const Solver solver = make_solver("ipm");
-  const Eigen::VectorXd far = 2.0 * made.solutions[0] + Eigen::VectorXd::Ones(45);
-  const Result cold = solver.solve(made.problem, {{.tol = 1e-7}, {}, nullptr});
-  const Result warm = solver.solve(made.problem, {{.tol = 1e-7}, far, nullptr});
-  EXPECT_EQ(cold.r, warm.r);
-  EXPECT_EQ(cold.iterations, warm.iterations);
-  EXPECT_GT(cold.iterations, 3);
-  // But a guess that solves the problem is an answer.
-  EXPECT_EQ(solver.solve(made.problem, {{.tol = 1e-7}, made.solutions[0], nullptr}).iterations, 0);
-}
-
 // Only Gauss-Seidel takes W = 0, and not where it would have to form a large dense W.
 TEST(Automatic, RefusesWhatEachOfItsMethodsRefuses) {
   constexpr int kCones = 2001, kDofs = 3000;
