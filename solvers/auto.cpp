@@ -98,6 +98,15 @@ constexpr Expectations kOnPlaneGrid{.gs = 15000.0,
                                     .ipm_steps = 20};
 // The guess is right in what sweeps are slow at, which what apgd leaves is not.
 constexpr Expectations kLooselyOnGrid{100.0, 0.0, 300.0, 15000.0, 1200.0, 12000.0, 300, 0.0};
+constexpr Expectations kLooselyOnPlaneGrid{.gs = 100.0,
+                                           .apgd = 0.0,
+                                           .prox_newton = 500.0,
+                                           .newton_ac = 15000.0,
+                                           .ipm = 500.0,
+                                           .aclm = 12000.0,
+                                           .apgd_steps = 300,
+                                           .gs_handover = 0.0,
+                                           .ipm_steps = 6};
 // Where W is singular for sure, the last three need more and dearer factorisations.
 constexpr Expectations kSingular{100.0, 0.0, 1000.0, 15000.0, 20000.0, 15000.0};
 constexpr Expectations kOtherwise{100.0, 0.0, 1000.0, 1000.0, 1500.0, 3000.0};
@@ -113,10 +122,10 @@ Expectations expectations(const Problem& problem, double tol) {
   const double entries =
       problem.is_primal() ? static_cast<double>(problem.H().nonZeros()) / problem.rows() : 0.0;
   if (entries > 12.0) {
-    if (loose) return kLooselyOnGrid;
     const bool in_space =
         std::ranges::any_of(problem.cones(), [](const Cone& cone) { return cone.dim > 3; });
-    if (in_space) return kOnGrid;
+    if (in_space) return loose ? kLooselyOnGrid : kOnGrid;
+    if (loose) return kLooselyOnPlaneGrid;
     Expectations expected = kOnPlaneGrid;
     const double decades = std::log(std::max(tol, 1e-12)) / std::log(kPlaneTol);
     expected.ipm *= decades;
