@@ -243,6 +243,7 @@ class Automatic final : public Iteration {
       best_eta_ = lane.eta;
       best_ = lane.iteration->r();
     }
+    if (lane.eta <= tol_) return State::kStalled;  // at a solution; no other lane may take over
     if (state != State::kRunning) {
       lane.over = true;
       lane.promise_s = kInfinity;

@@ -14,7 +14,8 @@ using problems::Problem;
 using State = Iteration::State;
 
 constexpr double kSecondsPerRow = 8e-7;  // of an iteration without its linear system (work_s)
-constexpr double kToBoundary = 0.98;     // share of the way to the cone's boundary
+// Share of the way to the cone's boundary; of the path with the shift as an unknown less.
+constexpr double kToBoundary = 0.995, kToBoundaryWithShift = 0.98;
 constexpr double kLeastPush = 1e-12, kLargestPush = 1.0;  // into the interior, as shares of U
 // Cones of less mobility than this share of the largest start from no larger a reaction.
 constexpr double kLeastMobility = 1e-4;
@@ -236,7 +237,8 @@ double InteriorPoint::direction(const Eigen::VectorXd& residual, double target, 
 }
 
 double InteriorPoint::to_boundary() const {
-  return std::min(kToBoundary * step_length(1.0 / kToBoundary), 1.0);
+  const double share = coulomb_ ? kToBoundaryWithShift : kToBoundary;
+  return std::min(share * step_length(1.0 / share), 1.0);
 }
 
 // The longest step that keeps r and x in their cones.
