@@ -243,8 +243,8 @@ class Automatic final : public Iteration {
       best_eta_ = lane.eta;
       best_ = lane.iteration->r();
     }
-    if (lane.eta <= tol_) return State::kStalled;  // at a solution; no other lane may take over
     if (state != State::kRunning) {
+      if (lane.eta <= tol_) return state;  // at a solution: no other lane takes over
       lane.over = true;
       lane.promise_s = kInfinity;
     } else if (lane.eta <= kProgress * turn_from_) {
