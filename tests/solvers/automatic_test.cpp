@@ -9,8 +9,8 @@
 namespace conebench::solvers {
 namespace {
 
-// A lane may end its turn at a solution, between two looks at eta: sweeps find r = 0 of wedged cones
-// that open exactly, and stop.
+// A lane may end its turn at a solution, between two looks at eta: sweeps find r = 0 of wedged
+// cones that open exactly, and stop.
 TEST(Automatic, EndsWhereALaneEndsAtASolution) {
   const Solver solver = make_solver("auto");
   std::mt19937_64 random(7);
