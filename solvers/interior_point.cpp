@@ -33,6 +33,8 @@ constexpr double kWorthwhile = 1.02;  // further, by this factor, is worth a cor
 InteriorPoint::InteriorPoint(const Problem& problem, ScaledSystem::Form form, bool coulomb)
     : problem_(problem),
       coulomb_(coulomb),
+      least_mobility_(problem.cone_count() > 0 ? kLeastMobility * problem.mobility().maxCoeff()
+                                               : 0.0),
       system_(problem, form, !coulomb),
       R_(problem),
       C_(problem),
@@ -66,19 +68,20 @@ void InteriorPoint::pose(const Eigen::VectorXd& shift, const Eigen::VectorXd& r)
 void InteriorPoint::centre_cone(int i) {
   const int at = problem_.start(i), dim = cone(i).dim;
   const double gap = start_ * scale();
-  centre(cone(i).mu, problem_.mobility()(i), gap * gap / size_of(i), r_.segment(at, dim),
+  centre(cone(i).mu, problem_.mobility()(i), gap * gap / start_mobility(i), r_.segment(at, dim),
          x_.segment(at, dim));
 }
 
 // As far from the boundary in either cone, whatever mu.
 void InteriorPoint::push_inside(int i, double share) {
   const double push = std::clamp(share, kLeastPush, kLargestPush) * scale();
-  r_(problem_.start(i)) += push / size_of(i) * std::max(1.0, 1.0 / std::max(cone(i).mu, 0.1));
+  r_(problem_.start(i)) +=
+      push / start_mobility(i) * std::max(1.0, 1.0 / std::max(cone(i).mu, 0.1));
   x_(problem_.start(i)) += push * std::max(1.0, cone(i).mu);
 }
 
-double InteriorPoint::size_of(int i) const {
-  return std::max(problem_.mobility()(i), kLeastMobility * problem_.mobility().maxCoeff());
+double InteriorPoint::start_mobility(int i) const {
+  return std::max(problem_.mobility()(i), least_mobility_);
 }
 
 State InteriorPoint::advance(double) {

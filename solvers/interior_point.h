@@ -26,8 +26,8 @@ namespace conebench::solvers {
 ///           from there a guess saves iterations, and the path is lost less often.
 /// Accuracy  where r_i = x_i = 0 for some cone, error() is the square root of the gap: 1e-8 to 1e-9
 ///           is what doubles allow. It can stall elsewhere too: in results/published/methods.md
-///           `ipm` and `aclm-ipm` leave 2 of 30 ordinary problems each at an eta between 1e-8 and
-///           2e-6, one of the two at such a cone.
+///           `aclm-ipm` leaves 2 of 30 ordinary problems at an eta between 1e-8 and 2e-6, one of
+///           the two at such a cone, `ipm` one.
 ///
 /// With `coulomb` the shift is no longer given: x = u + theta |u_t|_eps e_n, |a|_eps = sqrt(|a|^2 +
 /// eps^2), is the De Saxce term as an unknown, so that dx = C W dr + e with C_i = I + theta e_n
@@ -68,7 +68,7 @@ class InteriorPoint final : public ConvexIteration {
   const problems::Cone& cone(int i) const { return problem_.cones()[static_cast<std::size_t>(i)]; }
   double scale() const { return problem_.rate_scale() > 0.0 ? problem_.rate_scale() : 1.0; }
   double smoothing_of(int i) const;
-  double size_of(int i) const;
+  double start_mobility(int i) const;
 
   void centre_cone(int i);
   void push_inside(int i, double share);
@@ -86,6 +86,7 @@ class InteriorPoint final : public ConvexIteration {
 
   const problems::Problem& problem_;
   bool coulomb_;
+  double least_mobility_;  // at a start
   ScaledSystem system_;
   BlockDiagonal R_, C_;
   NtScalings scalings_;

@@ -7,17 +7,16 @@ namespace conebench::solvers {
 /// `ipm`: the interior point of solvers/interior_point.h with the De Saxce term as an unknown. No
 /// convergence proof: the problem is not convex. For theta = 0 it is the convex method.
 ///
-/// Start     at the guess.
-/// Sweeps    its iterates balance forces everywhere and smooth the law of every cone; a few sweeps
-/// of
-///           Gauss-Seidel (solvers/gs.h) from each, for 15 % of its work, sharpen the law: eta
-///           falls by about ten, and a third of the iterations are saved. The interior point goes
-///           on from its own iterate. No sweeps where they would have to form W.
-/// Traps     where the gap does not halve in 5 iterations (a fold of the path, or false
-/// convergence:
-///           gap closed, eta not small), or a factorisation fails, it begins again from r = 0 and
-///           further inside; then with ten times the smoothing; then, or near rounding, it goes on
-///           as aclm-ipm from its best iterate. The notes say so.
+/// Start   at the guess.
+/// Sweeps  its iterates balance forces everywhere and smooth the law of every cone; a few sweeps of
+///         Gauss-Seidel (solvers/gs.h) from each, for 15 % of its work, sharpen the law: eta falls
+///         by about ten, and a third of the iterations are saved. The interior point goes on from
+///         its own iterate. No sweeps where they would have to form W.
+/// Traps   where the gap does not halve in 5 iterations (a fold of the path, or a false end: gap
+///         closed, eta not small), or a factorisation fails, it begins again from r = 0 and further
+///         inside; then with ten times the smoothing; then, or near rounding, it goes on as
+///         aclm-ipm from its best iterate. The notes say so.
+///
 /// Best iterate kept, the guess included. Own test (StopTest::kOwn)  eta from its own r and u.
 Method interior_point();
 std::unique_ptr<Iteration> make_ipm(const problems::Problem& problem);

@@ -18,7 +18,7 @@ constexpr double kRegularisation = 1e-13;  // of W, as a share of the mobility
 // Relative residuals: see ScaledSystem::fine(), refined(). With LU of normal equations an interior
 // point loses nothing by the looser ones.
 constexpr double kFine = 1e-10, kRefined = 1e-13;
-constexpr double kLooselyFine = 1e-3, kLooselyRefined = 1e-3;
+constexpr double kLoose = 1e-3;
 
 // L with L L^T = I + delta R R^T. Where the second term is large, from the QR factors of
 // [I; sqrt(delta) R^T]: nothing is squared.
@@ -74,8 +74,8 @@ void ScaledSystem::be_finer() {
   }
 }
 
-double ScaledSystem::fine() const { return sliding_ ? kLooselyFine : kFine; }
-double ScaledSystem::refined() const { return sliding_ ? kLooselyRefined : kRefined; }
+double ScaledSystem::fine() const { return sliding_ ? kLoose : kFine; }
+double ScaledSystem::refined() const { return sliding_ ? kLoose : kRefined; }
 
 bool ScaledSystem::factorize(const BlockDiagonal& R, const BlockDiagonal& C) {
   for (int i = 0; i < R.count(); ++i) {
