@@ -34,6 +34,7 @@ constexpr double kDoubt = 1.0;       // times the work done at least
 constexpr double kEarlyDoubt = 5.0;  // times the work promised where the fall of eta says little
 constexpr double kLooseTol = 1e-4;   // from here on
 constexpr double kProgress = 0.9;    // less of a fall in eta is nothing
+constexpr double kRise = 4.0;        // above its least a lane's eta says that it is lost
 
 // One method, its iterate and its record.
 struct Lane {
@@ -249,6 +250,8 @@ class Automatic final : public Iteration {
       lane.promise_s = kInfinity;
     } else if (lane.eta <= kProgress * turn_from_) {
       lane.promise_s = at_the_rate(turn_s_, turn_from_, lane.eta);
+    } else if (lane.eta > kRise * lane.best) {
+      lane.promise_s = kNoPromise * lane.done_s;
     } else {
       lane.promise_s = std::clamp(kHesitation * at_the_rate(lane.done_s, lane.from, lane.best),
                                   kDoubt * lane.done_s, kNoPromise * lane.done_s);
