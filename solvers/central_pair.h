@@ -39,11 +39,12 @@ inline void centre(double mu, double lambda, double nu, Eigen::Ref<Eigen::Vector
   }
   const double root = std::sqrt(mu);
   const double pull = problems::tangential_norm(r), slip = problems::tangential_norm(x);
+  // The axis that both tangential parts lie on; its sense does not matter.
   Eigen::VectorXd along = Eigen::VectorXd::Unit(tangents, 0);
   if (lambda * pull > slip) {
     along = r.tail(tangents) / pull;
   } else if (slip > 0.0) {
-    along = -x.tail(tangents) / slip;
+    along = x.tail(tangents) / slip;
   }
   const double rho_n = root * r(0), rho_t = along.dot(r.tail(tangents)) / root;
   const double xi_n = x(0) / root, xi_t = root * along.dot(x.tail(tangents));

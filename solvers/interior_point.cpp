@@ -61,6 +61,7 @@ void InteriorPoint::pose(const Eigen::VectorXd& shift, const Eigen::VectorXd& r)
       push_inside(i, 10.0 * violation);
     }
   }
+  keep_inside();
   u_ = problem_.rate(r_);
   update();
 }

@@ -22,8 +22,8 @@ namespace conebench::solvers {
 ///           further. They cost a solve each, and save a third of the factorisations.
 /// Start     from (r, u): z = r - (u + t e_n) / lambda splits into r = P_K(z), x = lambda (r - z),
 ///           both pushed into the interior along e_n by ten times their violation; with `coulomb`
-///           moved to where r o x = (start U)^2 / lambda e in every cone (solvers/central_pair.h):
-///           from there a guess saves iterations, and the path is lost less often.
+///           moved to where rho o xi = (start U)^2 / lambda e (solvers/central_pair.h), lambda
+///           floored: from there a guess saves iterations, and the path is lost less often.
 /// Accuracy  where r_i = x_i = 0 for some cone, error() is the square root of the gap: 1e-8 to 1e-9
 ///           is what doubles allow. It can stall elsewhere too: in results/published/methods.md
 ///           `aclm-ipm` leaves 2 of 30 ordinary problems at an eta between 1e-8 and 2e-6, one of

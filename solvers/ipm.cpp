@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <vector>
 
 #include "solvers/aclm.h"
@@ -22,6 +24,7 @@ std::unique_ptr<ConvexIteration> make_interior_point(const Problem& problem, For
   return std::make_unique<InteriorPoint>(problem, form, false);
 }
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // How far from the cones' boundaries an attempt begins (InteriorPoint::start_at), the first at the
 // guess, the others at r = 0, and its smoothing: other paths, where one is trapped.
 struct Attempt {
@@ -52,6 +55,7 @@ class CoulombInteriorPoint final : public Iteration {
     fixed_point_.reset();
     best_ = guess_ = r;
     eta_ = eta_of(r);
+    if (std::isnan(eta_)) eta_ = kInfinity;  // of a guess whose squares overflow
     attempt_ = 0;
     attempt();
   }
@@ -61,8 +65,10 @@ class CoulombInteriorPoint final : public Iteration {
     if (fixed_point_) {
       const double before = fixed_point_->work_s();
       const State state = fixed_point_->advance();
-      keep_best(fixed_point_->own_eta(), fixed_point_->r());
-      sweep(fixed_point_->r(), fixed_point_->work_s() - before);
+      const double eta = fixed_point_->own_eta();
+      keep_best(eta, fixed_point_->r());
+      if (eta < fixed_point_eta_) sweep(fixed_point_->r(), fixed_point_->work_s() - before);
+      fixed_point_eta_ = std::min(fixed_point_eta_, eta);
       return state;
     }
     const State state = direct_.advance(0.0);
@@ -75,6 +81,7 @@ class CoulombInteriorPoint final : public Iteration {
     } else {
       fixed_point_ = make_aclm(problem_, make_interior_point(problem_, Form::kAuto), {});
       fixed_point_->start(best_);
+      fixed_point_eta_ = kInfinity;
     }
     return State::kRunning;
   }
@@ -136,8 +143,8 @@ class CoulombInteriorPoint final : public Iteration {
   std::unique_ptr<Iteration> sweeps_;       // where they need no W
   std::unique_ptr<Iteration> fixed_point_;  // once the direct method is trapped
   Eigen::VectorXd guess_, best_;
-  double eta_ = 0.0;
-  double work_s_ = 0.0;  // of the direct method
+  double eta_ = 0.0, fixed_point_eta_ = kInfinity;  // the least of either
+  double work_s_ = 0.0;                             // of the direct method
   std::size_t attempt_ = 0;
   std::vector<double> gaps_;  // of this attempt
 };

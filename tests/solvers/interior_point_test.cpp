@@ -64,12 +64,15 @@ TEST(InteriorPoint, SolvesFromEveryGuess) {
   const problems::MadeProblem made = problems::make_backwards({.cones = 60, .seed = 3});
   const Eigen::VectorXd& solution = made.solutions[0];
   const Eigen::VectorXd noise = Eigen::VectorXd::Random(solution.size());
-  for (const double share : {1e-9, 1e-3, 1.0, 1e6}) {
+  for (const double share : {1e-9, 1e-3, 1.0, 1e6, 1e12}) {
     const Eigen::VectorXd guess = solution + share * solution.norm() * noise;
     const Result result =
         solver.solve(made.problem, {{.tol = 1e-7, .max_iterations = 60}, guess, nullptr});
     EXPECT_EQ(result.status, Status::kConverged) << share;
   }
+  // One whose squares overflow has no eta; with its own test ipm leaves it behind all the same.
+  const Stop own{.tol = 1e-7, .max_iterations = 60, .test = StopTest::kOwn};
+  EXPECT_EQ(solver.solve(made.problem, {own, 1e160 * noise, nullptr}).status, Status::kConverged);
   // A guess that solves the problem is an answer.
   EXPECT_EQ(solver.solve(made.problem, {{.tol = 1e-7}, solution, nullptr}).iterations, 0);
 }
