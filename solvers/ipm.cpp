@@ -25,6 +25,7 @@ std::unique_ptr<ConvexIteration> make_interior_point(const Problem& problem, For
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 // How far from the cones' boundaries an attempt begins (InteriorPoint::start_at), the first at the
 // guess, the others at r = 0, and its smoothing: other paths, where one is trapped.
 struct Attempt {
@@ -144,7 +145,7 @@ class CoulombInteriorPoint final : public Iteration {
   std::unique_ptr<Iteration> fixed_point_;  // once the direct method is trapped
   Eigen::VectorXd guess_, best_;
   double eta_ = 0.0, fixed_point_eta_ = kInfinity;  // the least of either
-  double work_s_ = 0.0;                             // of the direct method
+  double work_s_ = 0.0;                             // of the direct method and the sweeps
   std::size_t attempt_ = 0;
   std::vector<double> gaps_;  // of this attempt
 };
