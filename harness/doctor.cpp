@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "harness/blas.h"
 #include "harness/cgroup.h"
 #include "harness/child.h"
 #include "harness/host.h"
@@ -84,6 +85,16 @@ Finding load() {
           good};
 }
 
+Finding blas() {
+  const std::string kernels = blas_kernels();
+  if (kernels.empty()) return {"BLAS", "not OpenBLAS"};
+  const auto better = better_blas_kernels(kernels, VectorUnits::of_this_processor());
+  return {"BLAS",
+          fmt::format("OpenBLAS, kernels {}", kernels) +
+              (better ? fmt::format(" (slow; OPENBLAS_CORETYPE={} are faster)", *better) : ""),
+          !better};
+}
+
 Finding siconos() {
   for (const solvers::Method& method : solvers::all_methods()) {
     if (method.name.starts_with("siconos:")) return {"Siconos Numerics", "built in"};
@@ -119,6 +130,7 @@ std::vector<Finding> examine() {
                                     NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"fmt", fmt::format("{}", FMT_VERSION)},
       {"CLI11", CLI11_VERSION},
+      blas(),
       siconos(),
       limit("limit: address space", RLIMIT_AS, true),
       memory_groups(),
