@@ -160,7 +160,7 @@ class Automatic final : public Iteration {
     lanes_.push_back({"prox-newton", make_proximal_newton, expected.prox_newton, 1, 80, 0.1});
     lanes_.push_back({"newton-ac", [](const Problem& p) { return make_newton(p, {}); },
                       expected.newton_ac, 1, 60, 0.0});
-    lanes_.push_back({"ipm", [](const Problem& p) { return make_ipm(p); }, expected.ipm, 1,
+    lanes_.push_back({"ipm", [tol](const Problem& p) { return make_ipm(p, tol); }, expected.ipm, 1,
                       expected.ipm_steps, 0.0});
     lanes_.push_back({"aclm", [](const Problem& p) { return make_aclm(p, make_ssnal(p), {}); },
                       expected.aclm, 1, 60, 0.1});

@@ -38,7 +38,11 @@ constexpr int kPatience = 5;
 constexpr double kRounding = 1e-6;
 // Sweeps from an iterate take this share of its work, but are at least one and at most so many.
 constexpr double kSweepShare = 0.15;
-constexpr double kMostSweeps = 20.0;
+constexpr int kMostSweeps = 20;
+// They begin where eta has fallen by this factor since the last ones. An iterate within the second
+// of the tolerance is worth so many times the most.
+constexpr double kSweepFall = 0.25, kWithinReach = 20.0;
+constexpr int kLastRounds = 2;
 
 // Not where W would have to be formed for them.
 bool can_sweep(const Problem& problem) {
@@ -47,8 +51,8 @@ bool can_sweep(const Problem& problem) {
 
 class CoulombInteriorPoint final : public Iteration {
  public:
-  explicit CoulombInteriorPoint(const Problem& problem)
-      : problem_(problem), direct_(problem, Form::kAuto, true) {
+  CoulombInteriorPoint(const Problem& problem, double tol)
+      : problem_(problem), tol_(tol), direct_(problem, Form::kAuto, true) {
     if (can_sweep(problem)) sweeps_ = make_gauss_seidel(problem);
   }
 
@@ -58,6 +62,7 @@ class CoulombInteriorPoint final : public Iteration {
     eta_ = eta_of(r);
     if (std::isnan(eta_)) eta_ = kInfinity;  // of a guess whose squares overflow
     attempt_ = 0;
+    swept_eta_ = kInfinity;
     attempt();
   }
 
@@ -114,18 +119,27 @@ class CoulombInteriorPoint final : public Iteration {
     return !(gaps_.back() <= 0.5 * gaps_[gaps_.size() - 1 - kPatience]);
   }
 
-  // The iterate balances forces everywhere and smooths the law of every cone; sweeps sharpen it.
+  // The iterate balances forces everywhere and smooths the law of every cone; sweeps sharpen it,
+  // eta to a tenth and less. More of them only spoil it again.
   void sweep(const Eigen::VectorXd& r, double work_s) {
     if (!sweeps_ || !r.allFinite()) return;
-    sweeps_->start(r);
+    const double eta = eta_of(r);
+    const bool within_reach = eta <= kWithinReach * tol_;
+    if (!within_reach && eta > kSweepFall * swept_eta_) return;
+    swept_eta_ = eta;
+    const double affordable = kSweepShare * work_s / gauss_seidel_sweep_work_s(problem_);
+    const int count = within_reach
+                          ? kMostSweeps
+                          : static_cast<int>(std::clamp(affordable, 1.0, double{kMostSweeps}));
     const double before = sweeps_->work_s();
-    const double one = gauss_seidel_sweep_work_s(problem_);
-    const double count = std::clamp(kSweepShare * work_s / one, 1.0, kMostSweeps);
-    for (int k = 0; k < static_cast<int>(count); ++k) {
-      if (sweeps_->advance() != State::kRunning) break;
+    sweeps_->start(r);
+    for (int round = 0; round < (within_reach ? kLastRounds : 1) && eta_ > tol_; ++round) {
+      for (int k = 0; k < count; ++k) {
+        if (sweeps_->advance() != State::kRunning) break;
+      }
+      keep_best(eta_of(sweeps_->r()), sweeps_->r());
     }
     work_s_ += sweeps_->work_s() - before;
-    keep_best(eta_of(sweeps_->r()), sweeps_->r());
   }
 
   double eta_of(const Eigen::VectorXd& r) const {
@@ -140,11 +154,13 @@ class CoulombInteriorPoint final : public Iteration {
   }
 
   const Problem& problem_;
+  double tol_;
   InteriorPoint direct_;
   std::unique_ptr<Iteration> sweeps_;       // where they need no W
   std::unique_ptr<Iteration> fixed_point_;  // once the direct method is trapped
   Eigen::VectorXd guess_, best_;
   double eta_ = 0.0, fixed_point_eta_ = kInfinity;  // the least of either
+  double swept_eta_ = kInfinity;                    // of the iterate last swept from
   double work_s_ = 0.0;                             // of the direct method and the sweeps
   std::size_t attempt_ = 0;
   std::vector<double> gaps_;  // of this attempt
@@ -164,8 +180,8 @@ std::vector<Parameter> form_parameter() {
 
 }  // namespace
 
-std::unique_ptr<Iteration> make_ipm(const Problem& problem) {
-  return std::make_unique<CoulombInteriorPoint>(problem);
+std::unique_ptr<Iteration> make_ipm(const Problem& problem, double tol) {
+  return std::make_unique<CoulombInteriorPoint>(problem, tol);
 }
 
 Method interior_point() {
@@ -179,7 +195,12 @@ Method interior_point() {
                 .parameters = {},
                 .make = {}};
   method.make = [method](const Values& values) {
-    return make_iterative_solver(method, values, refuse_zero_delassus, make_ipm);
+    auto run = [](const Problem& problem, const Stop& stop, const Eigen::VectorXd& guess,
+                  Monitor& monitor) {
+      CoulombInteriorPoint iteration(problem, stop.tol);
+      return drive(iteration, problem, stop, guess, monitor);
+    };
+    return make_checked_solver(method, values, refuse_zero_delassus, run);
   };
   return method;
 }

@@ -9,9 +9,11 @@ namespace conebench::solvers {
 ///
 /// Start   at the guess.
 /// Sweeps  its iterates balance forces everywhere and smooth the law of every cone; a few sweeps of
-///         Gauss-Seidel (solvers/gs.h) from each, for 15 % of its work, sharpen the law: eta falls
-///         by about ten, and a third of the iterations are saved. The interior point goes on from
-///         its own iterate. No sweeps where they would have to form W.
+///         Gauss-Seidel (solvers/gs.h) sharpen the law: eta falls by about ten, and a third of the
+///         iterations are saved. They are done for 15 % of an iteration's work whenever eta has
+///         fallen to a quarter, and 20 or 40 from every iterate within 20 times `tol`; many more
+///         lead away again on hard problems. The interior point goes on from its own iterate. No
+///         sweeps where they would have to form W.
 /// Traps   where the gap does not halve in 5 iterations (a fold of the path, or a false end: gap
 ///         closed, eta not small), or a factorisation fails, it begins again from r = 0 and further
 ///         inside; then with ten times the smoothing; then, or near rounding, it goes on as
@@ -19,7 +21,8 @@ namespace conebench::solvers {
 ///
 /// Best iterate kept, the guess included. Own test (StopTest::kOwn)  eta from its own r and u.
 Method interior_point();
-std::unique_ptr<Iteration> make_ipm(const problems::Problem& problem);
+/// `tol`: the eta that it is asked for; 0 where there is none.
+std::unique_ptr<Iteration> make_ipm(const problems::Problem& problem, double tol);
 
 /// `aclm-ipm`: the interior point for a given shift, inside the fixed point of solvers/aclm.h.
 Method aclm_interior_point();

@@ -4,6 +4,7 @@
 
 #include "problems/made_backwards.h"
 #include "problems/residual.h"
+#include "solvers/monitor.h"
 #include "solvers/registry.h"
 
 namespace conebench::solvers {
@@ -87,6 +88,28 @@ TEST(InteriorPoint, SweepsSharpenWhatItCannot) {
         solver.solve(problem, {{.tol = 1e-10, .max_iterations = 60}, {}, nullptr});
     EXPECT_LE(problems::evaluate_eta(problem, result.r), 1e-10) << seed;
   }
+}
+
+// Sweeps bring an iterate near the tolerance to it: on the way to a tighter one it is not worth
+// them.
+TEST(InteriorPoint, NeedsFewerIterationsWhereItKnowsTheTolerance) {
+  constexpr double kTol = 1e-5;
+  const Solver solver = make_solver("ipm");
+  std::int64_t asked = 0, passed = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    const Problem problem =
+        problems::make_backwards({.family = Family::kRankDeficient, .cones = 40, .seed = seed})
+            .problem;
+    asked += solver.solve(problem, {{.tol = kTol}, {}, nullptr}).iterations;
+    const Stop tight{.tol = 1e-10, .max_iterations = 200};
+    Monitor monitor(problem, tight);
+    solver.solve(problem, {tight, {}, &monitor});
+    const auto there = std::ranges::find_if(
+        monitor.curve(), [](const CurvePoint& point) { return point.eta <= kTol; });
+    ASSERT_NE(there, monitor.curve().end()) << "seed " << seed;
+    passed += there->iteration;
+  }
+  EXPECT_LT(asked, passed);
 }
 
 }  // namespace
