@@ -5,6 +5,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "harness/blas.h"
 #include "harness/child.h"
 #include "harness/pool.h"
 
@@ -34,6 +35,9 @@ std::string build() {
   text += ", for this processor";
 #endif
   if (memory_limits_are_off()) text += ", sanitizers";
+  if (const std::string kernels = blas_kernels(); !kernels.empty()) {
+    text += ", OpenBLAS for " + kernels;
+  }
   return text;
 }
 

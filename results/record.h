@@ -38,7 +38,7 @@ struct Host {
   std::string cpu;       ///< model name
   int cores = 0;         ///< that this process may use
   std::string compiler;  ///< name and version
-  std::string build;     ///< "RelWithDebInfo, native, ..."
+  std::string build;     ///< "RelWithDebInfo, for this processor, OpenBLAS for Haswell"
   std::string version;   ///< of conebench
 
   /// What two hosts must share for their times to be comparable: processor and cores.
