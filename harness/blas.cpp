@@ -21,7 +21,7 @@ VectorUnits VectorUnits::of_this_processor() {
 }
 
 std::optional<std::string> better_blas_kernels(std::string_view chosen, VectorUnits units) {
-  if (chosen != "Prescott") return std::nullopt;
+  if (chosen != "Prescott" && chosen != "Barcelona") return std::nullopt;
   if (units.avx512) return "SkylakeX";
   if (units.avx2) return "Haswell";
   return std::nullopt;

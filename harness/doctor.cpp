@@ -91,7 +91,7 @@ Finding blas() {
   const auto better = better_blas_kernels(kernels, VectorUnits::of_this_processor());
   return {"BLAS",
           fmt::format("OpenBLAS, kernels {}", kernels) +
-              (better ? fmt::format(" (slow; OPENBLAS_CORETYPE={} are faster)", *better) : ""),
+              (better ? fmt::format(" (slow; faster with OPENBLAS_CORETYPE={})", *better) : ""),
           !better};
 }
 

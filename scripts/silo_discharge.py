@@ -108,6 +108,8 @@ def main():
               f"Filled to {FILLED} m, rates while more than half of that is left:", "",
               "| outlet W [m] | cells | rate [m2/s] | rate / (sqrt(g) W^1.5) |", "|---|---|---|---|"]
     widths = [(run.outlet, run.rate(0.5 * run.height)) for run in wider]
+    if any(rate is None for _, rate in widths):
+        raise SystemExit("a run is too short to tell its rate")
     for outlet, rate in widths:
         lines.append(f"| {outlet} | {outlet / 0.025:.0f} | {rate:.3f} | "
                      f"{rate / math.sqrt(9.81) / outlet ** 1.5:.2f} |")

@@ -39,9 +39,10 @@ constexpr double kRounding = 1e-6;
 // Sweeps from an iterate take this share of its work, but are at least one and at most so many.
 constexpr double kSweepShare = 0.15;
 constexpr int kMostSweeps = 20;
-// They begin where eta has fallen by this factor since the last ones. An iterate within the second
-// of the tolerance is worth so many times the most.
-constexpr double kSweepFall = 0.25, kWithinReach = 20.0;
+// They begin where eta has fallen by this factor since the last ones, whichever attempt's.
+constexpr double kSweepFall = 0.25;
+// An iterate within so many times the tolerance gets so many rounds of the most sweeps.
+constexpr double kWithinReach = 20.0;
 constexpr int kLastRounds = 2;
 
 // Not where W would have to be formed for them.
@@ -125,7 +126,7 @@ class CoulombInteriorPoint final : public Iteration {
     if (!sweeps_ || !r.allFinite()) return;
     const double eta = eta_of(r);
     const bool within_reach = eta <= kWithinReach * tol_;
-    if (!within_reach && eta > kSweepFall * swept_eta_) return;
+    if (!within_reach && !(eta <= kSweepFall * swept_eta_)) return;
     swept_eta_ = eta;
     const double affordable = kSweepShare * work_s / gauss_seidel_sweep_work_s(problem_);
     const int count = within_reach

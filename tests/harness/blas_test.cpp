@@ -17,6 +17,7 @@ constexpr VectorUnits kOld{}, kAvx2{.avx2 = true}, kAvx512{.avx2 = true, .avx512
 TEST(BlasKernels, OldOnesAreReplacedByWhatTheProcessorCanDo) {
   EXPECT_EQ(better_blas_kernels("Prescott", kAvx2), "Haswell");
   EXPECT_EQ(better_blas_kernels("Prescott", kAvx512), "SkylakeX");
+  EXPECT_EQ(better_blas_kernels("Barcelona", kAvx2), "Haswell");
 }
 
 TEST(BlasKernels, OthersStay) {

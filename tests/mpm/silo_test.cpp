@@ -51,7 +51,7 @@ struct Emptying {
       simulation.step();
       times_s.push_back(simulation.time_s());
       heights_m.push_back(kFilling * above() / all);
-    } while (heights_m.back() > 0.7);
+    } while (heights_m.back() > 0.7 && simulation.time_s() < 8.0);
   }
 
   // Fall of the mean height a second [m/s] between two heights, by least squares.

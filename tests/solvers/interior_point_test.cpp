@@ -100,7 +100,9 @@ TEST(InteriorPoint, NeedsFewerIterationsWhereItKnowsTheTolerance) {
     const Problem problem =
         problems::make_backwards({.family = Family::kRankDeficient, .cones = 40, .seed = seed})
             .problem;
-    asked += solver.solve(problem, {{.tol = kTol}, {}, nullptr}).iterations;
+    const Result result = solver.solve(problem, {{.tol = kTol}, {}, nullptr});
+    ASSERT_EQ(result.status, Status::kConverged) << "seed " << seed;
+    asked += result.iterations;
     const Stop tight{.tol = 1e-10, .max_iterations = 200};
     Monitor monitor(problem, tight);
     solver.solve(problem, {tight, {}, &monitor});
