@@ -16,22 +16,22 @@ using mpm::Condition;
 using mpm::Scene;
 using mpm::Simulation;
 
-constexpr double kWidth = 1.6, kShelf = 0.2, kFilling = 3.0;  // [m]
+constexpr double kWidth = 1.0, kShelf = 0.2, kFilling = 3.0;  // [m]
 
 // A flat floor with an outlet of 0.4 m over an open bottom, between walls of half the friction.
 Scene silo(double friction) {
-  Scene scene = box_scene({16, 33});
+  Scene scene = box_scene({10, 33});
   scene.step_s = 8e-3;
   scene.material.friction = friction;
   scene.walls[2].condition = Condition::kFree;
   for (int side : {0, 1}) {
     scene.walls[static_cast<std::size_t>(side)] = {Condition::kFrictional, 0.5 * friction};
     Barrier shelf{.axis = 1, .position_m = kShelf, .condition = Condition::kStick};
-    shelf.low_m = {side == 0 ? 0.0 : 1.0, kShelf, 0.0};
-    shelf.high_m = {side == 0 ? 0.6 : kWidth, kShelf, 0.0};
+    shelf.low_m = {side == 0 ? 0.0 : 0.7, kShelf, 0.0};
+    shelf.high_m = {side == 0 ? 0.3 : kWidth, kShelf, 0.0};
     scene.barriers.push_back(shelf);
   }
-  add_block(scene, {0.0, 2.0, 0.0}, {16.0, 32.0, 0.0});
+  add_block(scene, {0.0, 2.0, 0.0}, {10.0, 32.0, 0.0});
   return scene;
 }
 
