@@ -1,8 +1,10 @@
 """What the scripts of this folder share."""
 import csv
 import json
+import math
 import pathlib
 import platform
+import statistics
 import subprocess
 
 PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "build" / "conebench"
@@ -20,6 +22,16 @@ def machine():
     with open("/proc/cpuinfo") as info:
         return next((line.split(":", 1)[1].strip() for line in info
                      if line.startswith("model name")), platform.machine())
+
+
+def slope(points):
+    """Of a line through [(x, y)], by least squares."""
+    return statistics.linear_regression(*zip(*points)).slope
+
+
+def exponent(points):
+    """n of y ~ x^n through [(x, y)], by least squares of the logarithms."""
+    return slope([(math.log(x), math.log(y)) for x, y in points])
 
 
 def shown(value):

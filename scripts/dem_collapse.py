@@ -136,13 +136,6 @@ def two_sides_of_critical(args):
             for what in ("stands", "falls")]
 
 
-def slope(points):
-    """Of a line by least squares."""
-    mean = [statistics.fmean(z) for z in zip(*points)]
-    return (sum((x - mean[0]) * (y - mean[1]) for x, y in points) /
-            sum((x - mean[0]) ** 2 for x, _ in points))
-
-
 def draw_run_outs(rows, path):
     plt = scene_runs.plotting()
     figure, axes = plt.subplots(figsize=(7, 5))

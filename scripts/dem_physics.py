@@ -8,7 +8,6 @@ ends) and OUT/<experiment>.svg; OUT/pictures.svg has one run of each. Runs kept 
 repeated, so that what was stopped goes on. Needs matplotlib. About 15 min of one core.
 """
 import argparse
-import math
 import pathlib
 
 import common
@@ -47,8 +46,8 @@ def about_run_outs(rows):
             f"{scaling(a):.2f} ({found / scaling(a):.2f})" for _, scaling in run_outs.SCALINGS)
             + " |")
     squat, tall, tallest = (
-        dem_collapse.slope([(math.log(r["aspect_ratio"]), math.log(r["run_out"])) for r in rows
-                            if low < r["aspect_ratio"] < high])
+        common.exponent([(r["aspect_ratio"], r["run_out"]) for r in rows
+                         if low < r["aspect_ratio"] < high])
         for low, high in ((0, 2), (2, 5), (4.5, 10)))
     return lines + [
         "", f"Exponents by least squares: {squat:.2f} below a = 2, {tall:.2f} from 2 to 5, "
@@ -63,7 +62,7 @@ def about_run_outs(rows):
 def about_critical(rows):
     share = dem_collapse.per_bond(rows)
     pairs = [(0.5 * (r["falls"] + r["stands"]), r["height"]) for r in rows]
-    steep = dem_collapse.slope(pairs)
+    steep = common.slope(pairs)
     lines = ["## Critical height of cohesive columns", "", "![critical height](critical.svg)", "",
              "Discs poured dry; then contacts get bonds of strength F, a contact point, and 0.1 s "
              "later the gate goes. The column is 3/4 as wide as the loose fill was high. It falls "

@@ -66,10 +66,7 @@ def main():
         found.append(run_out)
         cells = [f"{scaling(ratio):.2f} ({run_out / scaling(ratio):.2f})" for _, scaling in SCALINGS]
         lines.append(f"| {ratio} | {run_out:.2f} | {speed:.2g} | " + " | ".join(cells) + " |")
-    tall = [(math.log(a), math.log(x)) for a, x in zip(RATIOS, found) if a >= 3]
-    mean = [sum(z) / len(tall) for z in zip(*tall)]
-    slope = (sum((x - mean[0]) * (y - mean[1]) for x, y in tall) /
-             sum((x - mean[0]) ** 2 for x, _ in tall))
+    slope = common.exponent([(a, x) for a, x in zip(RATIOS, found) if a >= 3])
     lines += ["", f"Exponent of our run-out over a >= 3, by least squares: {slope:.2f}. Published for "
               "tall columns: 2/3 (Lube et al. 2005; Lajeunesse et al. 2005), about 0.7 (Staron & "
               "Hinch 2005; Lagrée et al. 2011). Prefactors and exponents are quoted second hand."]

@@ -55,18 +55,7 @@ class Discharge:
                   if above <= a / WIDTH <= below]
         if len(points) < 8:
             return None
-        mean_t = sum(t for t, _ in points) / len(points)
-        mean_a = sum(a for _, a in points) / len(points)
-        return -(sum((t - mean_t) * (a - mean_a) for t, a in points) /
-                 sum((t - mean_t) ** 2 for t, _ in points))
-
-
-def exponent(points):
-    """Of y ~ x^n, by least squares."""
-    logs = [(math.log(x), math.log(y)) for x, y in points]
-    mean = [sum(z) / len(logs) for z in zip(*logs)]
-    return (sum((x - mean[0]) * (y - mean[1]) for x, y in logs) /
-            sum((x - mean[0]) ** 2 for x, _ in logs))
+        return -common.slope(points)
 
 
 def shown(rate):
@@ -113,7 +102,7 @@ def main():
     for outlet, rate in widths:
         lines.append(f"| {outlet} | {outlet / 0.025:.0f} | {rate:.3f} | "
                      f"{rate / math.sqrt(9.81) / outlet ** 1.5:.2f} |")
-    lines += ["", f"Exponent of W, by least squares: {exponent(widths):.2f}. In plane flow it is 3/2 "
+    lines += ["", f"Exponent of W, by least squares: {common.exponent(widths):.2f}. In plane flow it is 3/2 "
               "where only the width of the outlet and g count (Beverloo, Leniger, van de Velde, Chem. "
               "Eng. Sci. 15 (1961), quoted second hand; grains of no size)."]
     (args.out / "silo-discharge.md").write_text("\n".join(lines) + "\n")
